@@ -1,0 +1,1 @@
+//! Compiles MIST programs to jobs and runs them.

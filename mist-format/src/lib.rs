@@ -1,0 +1,1 @@
+//! The text of MIST programs, expressions, tables and optical constants.

@@ -1,0 +1,3 @@
+//! The program `mist`.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Materials and tables in the formats of renderers.

@@ -1,0 +1,1 @@
+//! Polarized scattering models: from the parameters of a material to Mueller matrices.

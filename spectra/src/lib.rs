@@ -1,0 +1,1 @@
+//! Spectra, CIE colorimetry and RGB spaces.
