@@ -1,0 +1,111 @@
+//! The defects of NIST's library, and whether they are reproduced.
+
+use std::fmt;
+
+/// How a model is built: with sound physics, or as NIST's library computes it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// Sound physics.
+    #[default]
+    Sound,
+    /// NIST's numbers, defects included.
+    Compat,
+}
+
+/// A defect of NIST's library that [`Mode::Compat`] reproduces; each is named in
+/// `docs/models.md`, and a sound run that meets one says so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Defect {
+    /// `Table_Angle_Distribution_Function` multiplies its angle by π/180 instead of dividing.
+    TableAngleUnit,
+    /// `Diffuse_Subsurface` takes the growing evanescent wave under absorbing films.
+    RecyclingBranch,
+    /// `Microroughness` type 1 takes the wrong branch beyond the critical angle.
+    MicroroughnessBranch,
+    /// Facets turn nothing where the local angle of incidence is exactly 0.
+    FacetRetro,
+    /// Reynolds–McCormick phase functions use g² in the place of g in their norm.
+    ReynoldsNorm,
+    /// Rayleigh and Legendre phase functions lack 1/4π.
+    PhaseNorm,
+    /// Sphere phase functions use the vacuum wave number, or the medium's where vacuum's belongs.
+    SpherePhaseMedium,
+    /// The Rayleigh sphere's amplitudes lack −i, Rayleigh–Gans spheres have its opposite.
+    RayleighPhase,
+    /// The modified gamma distribution integrates to 2.
+    GammaNorm,
+    /// The Zernike expansion computes λ² for λ³.
+    ZernikePower,
+    /// The triangular pyramid's spectral density is 0 on the lines f_x = ±√3 f_y.
+    PyramidLines,
+    /// Kubelka–Munk overflows to NaN for opaque layers.
+    KubelkaOverflow,
+    /// Sums over `Diffuse_Subsurface` sources fail for absorbing substrates.
+    SumAbsorbing,
+    /// A loss of 10⁻¹⁰ is added to the tangential index of light from the substrate side.
+    TinyLoss,
+    /// Particle models nudge angles near the specular, retro and normal directions.
+    Nudge,
+    /// A graded film of one tabulated and one constant material is tabulated from λ = 0.
+    GradedFilmGrid,
+    /// `Diffuse_Subsurface` recycles light by a 0.2° rectangle sum.
+    RecyclingSum,
+    /// Axisymmetric particles with mmax < lmax pair harmonics wrongly.
+    AxisymmetricIndex,
+    /// The Gaussian phase function is normalized by a truncated series.
+    GaussianPhaseSeries,
+    /// Slope distributions use constants of twelve digits.
+    SlopeConstants,
+}
+
+impl Defect {
+    /// The number in the list of defects of `docs/models.md`, and what it does to a result.
+    pub fn describe(self) -> (&'static str, &'static str) {
+        match self {
+            Self::TableAngleUnit => {
+                ("B1", "Table_Angle_Distribution_Function reads its table at the wrong angle")
+            }
+            Self::RecyclingBranch => {
+                ("B3", "the recycled light under an absorbing film is too large")
+            }
+            Self::MicroroughnessBranch => {
+                ("B4", "the circular elements beyond the critical angle have the wrong sign")
+            }
+            Self::FacetRetro => ("B5", "the facet's basis is not turned at exact retro-reflection"),
+            Self::ReynoldsNorm => ("B6", "the Reynolds-McCormick phase function is not normalized"),
+            Self::PhaseNorm => ("B6", "the phase function is 4 pi too large"),
+            Self::SpherePhaseMedium => (
+                "B6",
+                "the scattering coefficient of the spheres is off by the square of the medium's index",
+            ),
+            Self::RayleighPhase => ("B6", "the phase of the sphere's amplitudes is wrong"),
+            Self::GammaNorm => ("B6", "the modified gamma distribution integrates to 2"),
+            Self::ZernikePower => ("B6", "the wavelength power 3 is computed as 2"),
+            Self::PyramidLines => ("B6", "the triangular pyramid's spectrum vanishes on two lines"),
+            Self::KubelkaOverflow => ("B7", "an opaque Kubelka-Munk layer gives nan"),
+            Self::SumAbsorbing => {
+                ("B11", "a sum over an absorbing Diffuse_Subsurface source fails")
+            }
+            Self::TinyLoss => ("B13", "a loss of 1e-10 is added to light from the substrate"),
+            Self::Nudge => {
+                ("B14", "angles near specular, retro and normal directions are moved by 2.5e-5 rad")
+            }
+            Self::GradedFilmGrid => {
+                ("B17", "a graded film of a table and a constant is tabulated too coarsely")
+            }
+            Self::RecyclingSum => ("B18", "the recycled light is a sum over steps of 0.2 degrees"),
+            Self::AxisymmetricIndex => ("B20", "harmonics above mmax are paired wrongly"),
+            Self::GaussianPhaseSeries => {
+                ("-", "the Gaussian phase function is normalized by a series for small widths")
+            }
+            Self::SlopeConstants => ("-", "constants of slope distributions have twelve digits"),
+        }
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (number, effect) = self.describe();
+        write!(f, "{number}: {effect}")
+    }
+}

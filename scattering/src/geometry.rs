@@ -1,0 +1,151 @@
+//! The directions of a scattering event, and how they are turned into vectors.
+//!
+//! The sample lies in the plane z = 0 with its outward normal along +z. Light comes from −x:
+//! the specular direction of an incident polar angle θ_i is (θ_s, φ_s) = (θ_i, 0), and
+//! retro-reflection is at φ_s = π.
+
+use glam::DVec3;
+
+/// The four angles of one evaluation, in radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Geometry {
+    /// Polar angle of incidence.
+    pub theta_i: f64,
+    /// Polar angle of scattering.
+    pub theta_s: f64,
+    /// Azimuth of scattering; 0 is the forward (specular) half plane.
+    pub phi_s: f64,
+    /// Azimuth of the sample's own x axis, counter-clockwise seen from outside.
+    pub rotation: f64,
+}
+
+/// Which side of the surface the light comes from and goes to; the parameter `type` of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Type 0: reflection, source outside.
+    DownUp,
+    /// Type 1: transmission into the substrate; θ_s is the internal angle.
+    DownDown,
+    /// Type 2: internal reflection; both angles are internal.
+    UpDown,
+    /// Type 3: transmission out of the substrate; θ_i is the internal angle.
+    UpUp,
+}
+
+impl Side {
+    /// The side of NIST's numbering 0–3, or nothing for any other number.
+    pub fn from_type(number: i32) -> Option<Self> {
+        [Self::DownUp, Self::DownDown, Self::UpDown, Self::UpUp]
+            .get(usize::try_from(number).ok()?)
+            .copied()
+    }
+
+    /// NIST's number of this side, 0–3.
+    pub fn number(self) -> i32 {
+        self as i32
+    }
+
+    /// Whether the incident light travels upwards, inside the substrate.
+    pub fn from_below(self) -> bool {
+        matches!(self, Self::UpDown | Self::UpUp)
+    }
+
+    /// Whether the scattered light travels downwards, inside the substrate.
+    pub fn to_below(self) -> bool {
+        matches!(self, Self::DownDown | Self::UpDown)
+    }
+}
+
+/// An incident beam and the orientation of the sample: what a batch of directions shares.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Incidence {
+    /// Polar angle of incidence, radians.
+    pub theta: f64,
+    /// sin θ_i.
+    pub sin: f64,
+    /// cos θ_i.
+    pub cos: f64,
+    /// Sample rotation, radians.
+    pub rotation: f64,
+    /// sin of the rotation.
+    pub sin_rotation: f64,
+    /// cos of the rotation.
+    pub cos_rotation: f64,
+}
+
+impl Incidence {
+    /// A beam at polar angle `theta` on a sample turned by `rotation`, both in radians.
+    pub fn new(theta: f64, rotation: f64) -> Self {
+        let (sin, cos) = theta.sin_cos();
+        let (sin_rotation, cos_rotation) = rotation.sin_cos();
+        Self { theta, sin, cos, rotation, sin_rotation, cos_rotation }
+    }
+
+    /// Propagation vector of type 0 light, (sin θ, 0, −cos θ).
+    pub fn k(&self) -> DVec3 {
+        DVec3::new(self.sin, 0.0, -self.cos)
+    }
+
+    /// A lateral vector of the laboratory (slope, spatial frequency) as the sample sees it.
+    pub fn to_sample(&self, x: f64, y: f64) -> (f64, f64) {
+        (
+            x * self.cos_rotation + y * self.sin_rotation,
+            y * self.cos_rotation - x * self.sin_rotation,
+        )
+    }
+}
+
+/// A direction of scattering with the sines and cosines that every model needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Direction {
+    /// Polar angle, radians; may be negative.
+    pub theta: f64,
+    /// Azimuth, radians.
+    pub phi: f64,
+    /// sin θ_s.
+    pub sin: f64,
+    /// cos θ_s.
+    pub cos: f64,
+    /// sin φ_s.
+    pub sin_phi: f64,
+    /// cos φ_s.
+    pub cos_phi: f64,
+}
+
+impl Direction {
+    /// The direction with polar angle `theta` and azimuth `phi`, radians.
+    pub fn new(theta: f64, phi: f64) -> Self {
+        let (sin, cos) = theta.sin_cos();
+        let (sin_phi, cos_phi) = phi.sin_cos();
+        Self { theta, phi, sin, cos, sin_phi, cos_phi }
+    }
+
+    /// Propagation vector of type 0 light, (sin θ cos φ, sin θ sin φ, cos θ).
+    pub fn k(&self) -> DVec3 {
+        DVec3::new(self.sin * self.cos_phi, self.sin * self.sin_phi, self.cos)
+    }
+}
+
+impl Geometry {
+    /// The incident half of the geometry.
+    pub fn incidence(&self) -> Incidence {
+        Incidence::new(self.theta_i, self.rotation)
+    }
+
+    /// The scattered half of the geometry.
+    pub fn direction(&self) -> Direction {
+        Direction::new(self.theta_s, self.phi_s)
+    }
+}
+
+/// Propagation vectors (incident, scattered) with the z components that belong to `side`.
+pub fn propagation(side: Side, incidence: &Incidence, direction: &Direction) -> (DVec3, DVec3) {
+    let (mut k_i, mut k_s) = (incidence.k(), direction.k());
+    if side.from_below() {
+        k_i.z = -k_i.z;
+    }
+    if side.to_below() {
+        k_s.z = -k_s.z;
+    }
+    (k_i, k_s)
+}

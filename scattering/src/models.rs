@@ -1,0 +1,218 @@
+//! The BRDF models, one file each, and the one way to ask them.
+
+use glam::DVec3;
+use num_complex::Complex64;
+
+use crate::{
+    Basis, Direction, Geometry, Incidence, Jones, Mueller, Node, ParamError, Side,
+    geometry::propagation,
+    polarization::change_basis,
+    spec::{self, Family, Member, Param, Spec},
+};
+
+pub mod coating;
+pub mod diffuse;
+pub mod facet;
+pub mod instrument;
+pub mod particle;
+pub mod roughness;
+pub mod sum;
+
+/// A prepared model of scattering from a surface.
+///
+/// Everything that depends on parameters alone was computed when it was built.
+pub trait Brdf: Send + Sync {
+    /// What every model has: wavelength, substrate, side.
+    fn common(&self) -> &Common;
+
+    /// Mueller BRDF (1/sr) in the model's own basis.
+    ///
+    /// Called only for |θ_i| < π/2 and |θ_s| < π/2.
+    fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller;
+
+    /// The same for many directions of one beam; `out` has the length of `directions`.
+    ///
+    /// Overridden where a batch can share work; the numbers do not change by it.
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        for (m, direction) in out.iter_mut().zip(directions) {
+            *m = self.mueller(incidence, direction);
+        }
+    }
+
+    /// Jones matrix J with M(J) the BRDF, for models that do not depolarize.
+    fn jones(&self, _: &Incidence, _: &Direction) -> Option<Jones> {
+        None
+    }
+
+    /// Whether [`Brdf::jones`] answers.
+    fn is_coherent(&self) -> bool {
+        false
+    }
+
+    /// The basis of the model's own matrices.
+    fn native_basis(&self) -> Basis {
+        Basis::Psps
+    }
+}
+
+/// What every model has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Common {
+    /// Vacuum wavelength, µm.
+    pub lambda: f64,
+    /// Index of the substrate at that wavelength.
+    pub substrate: Complex64,
+    /// Where the light comes from and goes to.
+    pub side: Side,
+}
+
+/// The parameters of [`Common`]: the first group of every model.
+pub const COMMON: &[Param] = &[
+    Param::number("lambda", "0.532", "um", "Vacuum wavelength"),
+    Param::index("substrate", "(4.05,0.05)", "Index of the substrate"),
+    Param::integer(
+        "type",
+        "0",
+        "0 reflection, 1 transmission into, 2 reflection inside, 3 transmission out of the substrate",
+    ),
+];
+
+impl Common {
+    /// Reads the common parameters of `node`.
+    ///
+    /// # Errors
+    ///
+    /// For a wavelength that is not positive, a type outside 0–3, and an absorbing substrate
+    /// with a type other than 0.
+    pub fn read(node: &Node) -> Result<Self, ParamError> {
+        let lambda = node.number("lambda");
+        if !(lambda > 0.0 && lambda.is_finite()) {
+            return Err(ParamError::new("lambda", format!("{lambda} um is not a wavelength")));
+        }
+        let number = node.integer("type");
+        let side = Side::from_type(number)
+            .ok_or_else(|| ParamError::new("type", format!("{number} is not 0, 1, 2 or 3")))?;
+        let substrate = node.index("substrate").at(lambda);
+        if side != Side::DownUp && substrate.im != 0.0 {
+            return Err(ParamError::new(
+                "substrate",
+                format!("an absorbing substrate (k = {}) has no type {number}", substrate.im),
+            ));
+        }
+        Ok(Self { lambda, substrate, side })
+    }
+
+    /// An error unless the model reflects from outside.
+    ///
+    /// # Errors
+    ///
+    /// For every type but 0.
+    pub fn only_reflection(&self, class: &str) -> Result<(), ParamError> {
+        if self.side == Side::DownUp {
+            return Ok(());
+        }
+        let problem = format!("{class} has type 0 only, not {}", self.side.number());
+        Err(ParamError::new("type", problem))
+    }
+}
+
+/// The groups of models, in the order they are listed to users.
+const GROUPS: &[&[&Spec<dyn Brdf>]] = &[
+    diffuse::ALL,
+    facet::ALL,
+    coating::ALL,
+    sum::ALL,
+    roughness::ALL,
+    particle::ALL,
+    instrument::ALL,
+];
+
+/// All models, in the order they are listed to users.
+pub fn all() -> impl Iterator<Item = &'static Spec<dyn Brdf>> {
+    GROUPS.iter().flat_map(|group| group.iter().copied())
+}
+
+/// Finds a model by its name in a program.
+pub fn find(name: &str) -> Option<&'static Spec<dyn Brdf>> {
+    all().find(|spec| spec.class.name == name)
+}
+
+impl Member for dyn Brdf {
+    const FAMILY: Family = Family::Brdf;
+
+    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
+        Box::new(all())
+    }
+}
+
+/// Builds the model that `node` describes.
+///
+/// # Errors
+///
+/// What its parameters get wrong.
+pub fn build(node: &Node) -> Result<Model, ParamError> {
+    spec::build::<dyn Brdf>(node).map(|brdf| Model { brdf })
+}
+
+/// A prepared model with the horizon and the bases: what users of models hold.
+pub struct Model {
+    brdf: Box<dyn Brdf>,
+}
+
+impl Model {
+    /// What every model has.
+    pub fn common(&self) -> &Common {
+        self.brdf.common()
+    }
+
+    /// Mueller BRDF (1/sr) for one geometry; zero at and below the horizon of either beam.
+    pub fn mueller(&self, at: &Geometry, basis: Basis) -> Mueller {
+        let mut out = [Mueller::ZERO];
+        self.evaluate(&at.incidence(), &[at.direction()], basis, &mut out);
+        out[0]
+    }
+
+    /// Mueller BRDFs (1/sr) for one beam and many directions; zero at and below the horizon.
+    ///
+    /// # Panics
+    ///
+    /// If `out` has another length than `directions`.
+    pub fn evaluate(
+        &self,
+        incidence: &Incidence,
+        directions: &[Direction],
+        basis: Basis,
+        out: &mut [Mueller],
+    ) {
+        assert_eq!(directions.len(), out.len(), "one matrix per direction");
+        if !is_above(incidence.theta) {
+            out.fill(Mueller::ZERO);
+            return;
+        }
+        if directions.iter().all(|d| is_above(d.theta)) {
+            self.brdf.mueller_batch(incidence, directions, out);
+        } else {
+            for (m, d) in out.iter_mut().zip(directions) {
+                *m =
+                    if is_above(d.theta) { self.brdf.mueller(incidence, d) } else { Mueller::ZERO };
+            }
+        }
+        self.convert(incidence, directions, basis, out);
+    }
+
+    fn convert(&self, inc: &Incidence, directions: &[Direction], to: Basis, out: &mut [Mueller]) {
+        let from = self.brdf.native_basis();
+        if from == to {
+            return;
+        }
+        let side = self.common().side;
+        for (m, d) in out.iter_mut().zip(directions) {
+            let (k_i, k_s): (DVec3, DVec3) = propagation(side, inc, d);
+            *m = change_basis(*m, from, to, k_i, k_s);
+        }
+    }
+}
+
+fn is_above(theta: f64) -> bool {
+    theta.abs() < std::f64::consts::FRAC_PI_2
+}

@@ -1,0 +1,76 @@
+//! Ideal diffuse reflector that depolarizes completely.
+//!
+//! $$ \mathbf{F} = \frac{R(\lambda)}{\pi}\,\mathrm{diag}(1, 0, 0, 0) $$
+//!
+//! R is the directional-hemispherical reflectance, the same for every angle of incidence. The
+//! side of the surface does not matter.
+//!
+//! F. E. Nicodemus et al., *Geometrical Considerations and Nomenclature for Reflectance*,
+//! NBS Monograph 160 (1977).
+
+use std::f64::consts::FRAC_1_PI;
+
+use crate::{
+    Direction, Incidence, Mueller,
+    models::{Brdf, COMMON, Common},
+    reflectance::Reflectance,
+    spec::{Class, Family, Laws, Param, Spec},
+};
+
+/// The parameter of a diffuse body: its reflectance.
+pub const BODY: &[Param] = &[Param::member(
+    "reflectance",
+    Family::Reflectance,
+    "Reflectance",
+    "Table_Reflectance",
+    "Reflectance of the body as a function of wavelength",
+)];
+
+/// How programs name, parameterize and build a [`Lambertian`].
+pub const SPEC: Spec<dyn Brdf> = Spec {
+    class: Class {
+        name: "Lambertian_BRDF_Model",
+        parent: "BRDF_Model",
+        summary: "Ideal diffuse, fully depolarizing reflector",
+        equation: "F = R/pi diag(1,0,0,0)",
+        source: "nicodemus-1977",
+        params: &[COMMON, BODY],
+        laws: Laws::ALL,
+    },
+    build: |node| {
+        let common = Common::read(node)?;
+        let reflectance = node.member::<dyn Reflectance>("reflectance")?.at(common.lambda);
+        Ok(Box::new(Lambertian { common, reflectance }))
+    },
+};
+
+/// An ideal diffuse reflector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lambertian {
+    common: Common,
+    reflectance: f64,
+}
+
+impl Brdf for Lambertian {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn mueller(&self, _: &Incidence, _: &Direction) -> Mueller {
+        Mueller::depolarizer(self.reflectance * FRAC_1_PI)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Basis, Geometry, Mode, Node, models};
+
+    #[test]
+    fn hemisphere_returns_the_reflectance() {
+        // ∫ f cos θ dΩ over the hemisphere is π f for a constant f.
+        let at = Geometry { theta_i: 0.7, theta_s: 0.2, phi_s: 1.0, rotation: 0.0 };
+        let model = models::build(&Node::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
+        let f = model.mueller(&at, Basis::Psps)[(0, 0)];
+        assert!((f * std::f64::consts::PI - 1.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,7 @@
+//! Signatures of instruments and tabulated standards.
+
+use super::Brdf;
+use crate::spec::Spec;
+
+/// The models of this group, in the order they are listed to users.
+pub const ALL: &[&Spec<dyn Brdf>] = &[];

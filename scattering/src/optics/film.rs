@@ -1,0 +1,1 @@
+//! Reflection and transmission coefficients of film stacks.

@@ -1,0 +1,31 @@
+//! Complex index of refraction n + ik as a function of the vacuum wavelength.
+
+use num_complex::Complex64;
+
+use super::Table;
+
+/// An index of refraction: two functions of the vacuum wavelength in µm, k ≥ 0 absorbing.
+#[derive(Clone, Debug)]
+pub struct Index {
+    /// The real part n.
+    pub n: Table,
+    /// The imaginary part k.
+    pub k: Table,
+}
+
+impl Index {
+    /// The same index at every wavelength.
+    pub fn constant(n: f64, k: f64) -> Self {
+        Self { n: Table::constant(n), k: Table::constant(k) }
+    }
+
+    /// n + ik at the vacuum wavelength `lambda` µm.
+    pub fn at(&self, lambda: f64) -> Complex64 {
+        Complex64::new(self.n.at(lambda), self.k.at(lambda))
+    }
+
+    /// The same material with k = 0.
+    pub fn without_absorption(&self) -> Self {
+        Self { n: self.n.clone(), k: Table::constant(0.0) }
+    }
+}

@@ -1,0 +1,11 @@
+//! Stokes vectors, Jones and Mueller matrices, and the bases they are written in.
+
+mod basis;
+mod jones;
+mod mueller;
+mod stokes;
+
+pub use basis::{Basis, Frame, change_basis, perp};
+pub use jones::Jones;
+pub use mueller::Mueller;
+pub use stokes::Stokes;

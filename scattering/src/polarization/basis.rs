@@ -1,0 +1,115 @@
+//! Polarization bases: psps, xyxy and plane, and the change from one to another.
+
+use glam::DVec3;
+
+use super::{Jones, Mueller};
+
+/// The pair of field directions in which Stokes vectors and Mueller matrices are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Basis {
+    /// s is horizontal (perpendicular to the normal and the ray), p = k × s. The default.
+    #[default]
+    Psps,
+    /// y takes the place of s and x of p; x follows the sample's axes for every direction.
+    Xyxy,
+    /// Perpendicular to the scattering plane takes the place of s, parallel that of p.
+    Plane,
+}
+
+impl Basis {
+    /// The basis that programs call `psps`, `xyxy` or `plane`; the case matters.
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "psps" => Some(Self::Psps),
+            "xyxy" => Some(Self::Xyxy),
+            "plane" => Some(Self::Plane),
+            _ => None,
+        }
+    }
+}
+
+/// Two unit vectors across a beam; `first` takes the place of s, `second` that of p.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The direction in the place of s.
+    pub first: DVec3,
+    /// The direction in the place of p.
+    pub second: DVec3,
+}
+
+/// Below this length of a cross product two directions count as parallel.
+const PARALLEL: f64 = 1e-10;
+
+/// Unit vector perpendicular to `a` and `b`; where they are parallel, to `a` and x̂, or ŷ.
+pub fn perp(a: DVec3, b: DVec3) -> DVec3 {
+    let a = a.normalize();
+    let cross = a.cross(b.normalize());
+    if cross.length() > PARALLEL {
+        return cross.normalize();
+    }
+    let cross = a.cross(DVec3::X);
+    if cross.length() > PARALLEL {
+        return cross.normalize();
+    }
+    a.cross(DVec3::Y).normalize()
+}
+
+fn is_normal(k: DVec3) -> bool {
+    k.x.abs() <= PARALLEL && k.y.abs() <= PARALLEL
+}
+
+impl Frame {
+    /// (s, p) of the beam `k`: s = ẑ × k normalized, p = k × s; s = ŷ along the normal.
+    pub fn psps(k: DVec3) -> Self {
+        let s = if is_normal(k) { DVec3::Y } else { perp(DVec3::Z, k) };
+        Self { first: s, second: perp(k, s) }
+    }
+
+    /// (y, x) of the beam `k`.
+    pub fn xyxy(k: DVec3) -> Self {
+        let x = if is_normal(k) {
+            DVec3::X
+        } else {
+            let Self { first: s, second: p } = Self::psps(k);
+            let (c, sigma) = (k.x / k.x.hypot(k.y), k.y / k.x.hypot(k.y));
+            let along = if k.z > 0.0 { -c } else { c };
+            along * p - sigma * s
+        };
+        Self { first: perp(x, k), second: x }
+    }
+
+    /// (⊥, ∥) of the beam `k` in the scattering plane of `k_i` and `k_s`.
+    pub fn plane(k: DVec3, k_i: DVec3, k_s: DVec3) -> Self {
+        let across = perp(k_i, k_s);
+        Self { first: across, second: perp(k, across) }
+    }
+
+    /// The frame of `basis` for the beam `k`, one of the pair `k_i`, `k_s`.
+    pub fn of(basis: Basis, k: DVec3, k_i: DVec3, k_s: DVec3) -> Self {
+        match basis {
+            Basis::Psps => Self::psps(k),
+            Basis::Xyxy => Self::xyxy(k),
+            Basis::Plane => Self::plane(k, k_i, k_s),
+        }
+    }
+
+    /// Jones matrix that takes field components in `self` to components in `new`.
+    pub fn to(&self, new: &Self) -> Jones {
+        Jones::real(
+            new.first.dot(self.first),
+            new.first.dot(self.second),
+            new.second.dot(self.first),
+            new.second.dot(self.second),
+        )
+    }
+}
+
+/// The matrix `m`, given in basis `from`, in basis `to`, for the beams `k_i` and `k_s`.
+pub fn change_basis(m: Mueller, from: Basis, to: Basis, k_i: DVec3, k_s: DVec3) -> Mueller {
+    if from == to {
+        return m;
+    }
+    let incoming = Frame::of(to, k_i, k_i, k_s).to(&Frame::of(from, k_i, k_i, k_s));
+    let outgoing = Frame::of(from, k_s, k_i, k_s).to(&Frame::of(to, k_s, k_i, k_s));
+    outgoing.mueller() * m * incoming.mueller()
+}

@@ -1,0 +1,33 @@
+//! Reflectance given by a number, a table or a formula of wavelength.
+
+use super::Reflectance;
+use crate::{
+    optics::Table,
+    spec::{Class, Laws, Param, Spec},
+};
+
+/// How programs name, parameterize and build a [`TableReflectance`].
+pub const SPEC: Spec<dyn Reflectance> = Spec {
+    class: Class {
+        name: "Table_Reflectance",
+        parent: "Reflectance",
+        summary: "Reflectance from a table or a constant",
+        equation: "R = table(lambda)",
+        source: "nicodemus-1977",
+        params: &[&[Param::table("table", "1", "1", "Reflectance against wavelength in um")]],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(TableReflectance { table: node.table("table").clone() })),
+};
+
+/// A tabulated reflectance.
+#[derive(Clone, Debug)]
+pub struct TableReflectance {
+    table: Table,
+}
+
+impl Reflectance for TableReflectance {
+    fn at(&self, lambda: f64) -> f64 {
+        self.table.at(lambda)
+    }
+}
