@@ -1,0 +1,49 @@
+//! ABC spectrum, also called K-correlation: flat below 1/B, a power law above.
+//!
+//! $$ \mathrm{PSD} = \frac{A}{[1 + (B f)^2]^{C/2}} $$
+//!
+//! f = √(f_x² + f_y²), A the density at f = 0, B a correlation length, C the exponent of the
+//! fractal part.
+//!
+//! E. L. Church and P. Z. Takacs, *The optimal estimation of finish parameters*,
+//! Proc. SPIE 1530, 71 (1991).
+
+use crate::{
+    psd::{Psd, strength},
+    spec::{Class, Laws, Param, Spec},
+};
+
+/// How programs name, parameterize and build an [`Abc`].
+pub const SPEC: Spec<dyn Psd> = Spec {
+    class: Class {
+        name: "ABC_PSD_Function",
+        parent: "PSD_Function",
+        summary: "ABC (K-correlation) spectrum",
+        equation: "PSD = A/(1+(B f)^2)^(C/2)",
+        source: "church-1991",
+        params: &[&[
+            Param::number("A", "0.01", "um^4", "Density at zero frequency"),
+            Param::number("B", "362", "um", "Correlation length"),
+            Param::number("C", "2.5", "1", "Exponent of the fall"),
+        ]],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let (b, c) = (node.number("B"), node.number("C"));
+        Ok(Box::new(Abc { a: strength(node, "A")?, b2: b * b, power: -0.5 * c }))
+    },
+};
+
+/// An ABC spectrum.
+#[derive(Clone, Debug)]
+pub struct Abc {
+    a: f64,
+    b2: f64,
+    power: f64,
+}
+
+impl Psd for Abc {
+    fn density(&self, fx: f64, fy: f64) -> f64 {
+        self.a * (1.0 + self.b2 * (fx * fx + fy * fy)).powf(self.power)
+    }
+}

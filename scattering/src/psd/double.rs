@@ -1,0 +1,45 @@
+//! Sum of two spectra: two independent kinds of roughness on one surface.
+//!
+//! $$ \mathrm{PSD} = \mathrm{PSD}_1 + \mathrm{PSD}_2 $$
+//!
+//! J. C. Stover, *Optical Scattering: Measurement and Analysis*, 3rd ed. (SPIE, 2012), chapter 4.
+
+use crate::{
+    psd::Psd,
+    spec::{Class, Family, Laws, Param, Spec},
+};
+
+/// How programs name, parameterize and build a [`Double`].
+pub const SPEC: Spec<dyn Psd> = Spec {
+    class: Class {
+        name: "Double_PSD_Function",
+        parent: "PSD_Function",
+        summary: "Sum of two spectra",
+        equation: "PSD = PSD1 + PSD2",
+        source: "stover-2012",
+        params: &[&[part("psd1", "The first spectrum"), part("psd2", "The second spectrum")]],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        Ok(Box::new(Double {
+            first: node.member::<dyn Psd>("psd1")?,
+            second: node.member::<dyn Psd>("psd2")?,
+        }))
+    },
+};
+
+const fn part(name: &'static str, doc: &'static str) -> Param {
+    Param::member(name, Family::Psd, "PSD_Function", "ABC_PSD_Function", doc)
+}
+
+/// A sum of two spectra.
+pub struct Double {
+    first: Box<dyn Psd>,
+    second: Box<dyn Psd>,
+}
+
+impl Psd for Double {
+    fn density(&self, fx: f64, fy: f64) -> f64 {
+        self.first.density(fx, fy) + self.second.density(fx, fy)
+    }
+}

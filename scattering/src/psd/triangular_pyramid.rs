@@ -1,0 +1,99 @@
+//! Pyramids on an equilateral triangle, one side along x, at random places.
+//!
+//! $$ \mathrm{PSD} = D h^2 \left| \sum_{\text{faces}} \iint \lambda\,
+//!    e^{-2\pi i \mathbf{f}\cdot\mathbf{r}}\,dx\,dy \right|^2 $$
+//!
+//! λ falls from 1 at the centre to 0 at the edge; h is the height (or depth), D the number per
+//! area. The integrals are evaluated as divided differences, without the singular lines of the
+//! closed form. NIST's library returns 0 on the lines f_x = ±√3 f_y
+//! ([`Defect::PyramidLines`]).
+//!
+//! C. de Boor, *Divided differences*, Surveys in Approximation Theory 1, 46 (2005).
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use crate::{
+    Defect,
+    psd::{Psd, strength, triangle},
+    spec::{Class, Laws, Param, Spec},
+};
+
+/// How programs name, parameterize and build a [`TriangularPyramid`].
+pub const SPEC: Spec<dyn Psd> = Spec {
+    class: Class {
+        name: "Triangular_Pyramid_PSD_Function",
+        parent: "PSD_Function",
+        summary: "Pyramids on equilateral triangles, one side along x",
+        equation: "PSD = density |FT(pyramid)|^2",
+        source: "deboor-2005",
+        params: &[&[
+            Param::number("length", "1.5", "um", "Length of a side"),
+            Param::number("height", "0.01", "um", "Height of one"),
+            Param::number("density", "0.01", "1/um^2", "Number per area"),
+        ]],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let side = node.number("length");
+        let face = 0.75f64.sqrt() / 6.0 * side * side;
+        Ok(Box::new(TriangularPyramid {
+            side,
+            peak: strength(node, "density")? * (face * node.number("height")).powi(2),
+            dark_lines: node.reproduces(Defect::PyramidLines),
+        }))
+    },
+};
+
+/// Three-sided pyramids; `peak` is the density at zero frequency.
+#[derive(Clone, Debug)]
+pub struct TriangularPyramid {
+    side: f64,
+    peak: f64,
+    dark_lines: bool,
+}
+
+/// Where NIST's library leaves its closed form: distance from a singular line, scaled.
+const NEAR_LINE: f64 = 1e-6;
+
+impl Psd for TriangularPyramid {
+    fn density(&self, fx: f64, fy: f64) -> f64 {
+        let (x, y) = (fx * self.side, fy * self.side);
+        if self.dark_lines && x.abs() > NEAR_LINE && (x * x - 3.0 * y * y).abs() < NEAR_LINE {
+            return 0.0;
+        }
+        let foot = TAU / 12f64.sqrt() * y;
+        let corners = [0.5 * TAU * x - foot, 2.0 * foot, -0.5 * TAU * x - foot];
+        let faces = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| [corners[a], corners[b]]);
+        let sum: Complex64 = faces.into_iter().map(|foot| triangle::tapered(0.0, foot)).sum();
+        self.peak * sum.norm_sqr()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Mode, psd::tests::build};
+
+    const NAME: &str = "Triangular_Pyramid_PSD_Function";
+
+    #[test]
+    fn the_lines_at_30_degrees_are_dark_in_compat_only() {
+        let (fx, fy) = (3f64.sqrt() * 0.4, 0.4);
+        let (sound, compat) = (build(NAME, Mode::Sound, &[]), build(NAME, Mode::Compat, &[]));
+        assert_eq!(compat.density(fx, fy), 0.0);
+        assert!(compat.density(fx, fy + 1e-3) > 0.0);
+        // The sound spectrum is smooth across the line.
+        let beside = 0.5 * (sound.density(fx, fy + 1e-4) + sound.density(fx, fy - 1e-4));
+        assert!((sound.density(fx, fy) / beside - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn zero_frequency_gives_the_volume_squared_in_both_modes() {
+        let volume = 3f64.sqrt() / 12.0 * 1.5 * 1.5 * 0.01;
+        for mode in [Mode::Sound, Mode::Compat] {
+            let density = build(NAME, mode, &[]).density(0.0, 0.0);
+            assert!((density / (0.01 * volume * volume) - 1.0).abs() < 1e-14);
+        }
+    }
+}
