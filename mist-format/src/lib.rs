@@ -1,1 +1,15 @@
-//! The text of MIST programs, expressions, tables and optical constants.
+#![doc = include_str!("../README.md")]
+
+pub mod diagnostic;
+pub mod dialect;
+pub mod expr;
+pub mod number;
+pub mod program;
+pub mod span;
+pub mod suggestion;
+pub mod table;
+
+pub use diagnostic::{Diagnostic, Note, Severity};
+pub use dialect::{Dialect, Quirk};
+pub use program::Program;
+pub use span::{LineIndex, Place, Span};

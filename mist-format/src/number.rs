@@ -1,0 +1,11 @@
+//! Numbers as text: C++ stream input, C printf output.
+
+mod general;
+mod prefix;
+mod printf;
+
+pub(crate) use general::TEXT_DIGITS;
+pub use general::{general, list, loop_text};
+pub(crate) use prefix::is_blank;
+pub use prefix::{IntegerPrefix, NumberPrefix, integer_prefix, number_prefix, whole_number};
+pub use printf::{FormatError, PrintfFormat};

@@ -1,0 +1,145 @@
+//! The section COLOR: how a program's spectra become a colour table.
+
+use super::Text;
+use crate::span::Span;
+
+/// The names that COLOR knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ColorKey {
+    /// Expression for the wavelength in µm.
+    Wavelength,
+    /// One output label, or four `a,b,c,d` for the Stokes components I, Q, U, V.
+    Spectrum,
+    /// `brdf`, `factor`, `reflectance` or `radiance`.
+    Quantity,
+    /// CIE name, a number (Planck, K), `D(number)` (daylight, K) or a file.
+    Illuminant,
+    /// Colour-matching functions.
+    Observer,
+    /// RGB space: a name, primaries with a white, or a matrix.
+    Space,
+    /// `none`, `Bradford`, `CAT02`, `CAT16` or `VonKries`.
+    Adaptation,
+    /// A polarization element before the eye; repeatable, in order.
+    Filter,
+    /// Expression for the polar angle of incidence in degrees.
+    Thetai,
+    /// Expression for the polar angle of scattering in degrees.
+    Thetas,
+    /// Expression for the azimuth of scattering in degrees.
+    Phis,
+    /// Expression for the projected solid angle in sr.
+    Omega,
+    /// Text for the header line `patch`.
+    Patch,
+    /// Text for the header line `material`.
+    Material,
+    /// Name of the colour table to write.
+    Table,
+    /// Name of the spectra to write.
+    Spectra,
+    /// Name of the JSON twin to write.
+    Json,
+    /// Name of the SVG plot to write.
+    Plot,
+}
+
+impl ColorKey {
+    /// Every key, in the order of the manual.
+    pub const ALL: &'static [Self] = &[
+        Self::Wavelength,
+        Self::Spectrum,
+        Self::Quantity,
+        Self::Illuminant,
+        Self::Observer,
+        Self::Space,
+        Self::Adaptation,
+        Self::Filter,
+        Self::Thetai,
+        Self::Thetas,
+        Self::Phis,
+        Self::Omega,
+        Self::Patch,
+        Self::Material,
+        Self::Table,
+        Self::Spectra,
+        Self::Json,
+        Self::Plot,
+    ];
+
+    /// The word in a program.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wavelength => "wavelength",
+            Self::Spectrum => "spectrum",
+            Self::Quantity => "quantity",
+            Self::Illuminant => "illuminant",
+            Self::Observer => "observer",
+            Self::Space => "space",
+            Self::Adaptation => "adaptation",
+            Self::Filter => "filter",
+            Self::Thetai => "thetai",
+            Self::Thetas => "thetas",
+            Self::Phis => "phis",
+            Self::Omega => "omega",
+            Self::Patch => "patch",
+            Self::Material => "material",
+            Self::Table => "table",
+            Self::Spectra => "spectra",
+            Self::Json => "json",
+            Self::Plot => "plot",
+        }
+    }
+
+    /// Finds a key by its word in any case.
+    pub fn find(word: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|key| key.name().eq_ignore_ascii_case(word))
+    }
+}
+
+/// One assignment in COLOR.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColorEntry {
+    /// Told by the name.
+    pub key: ColorKey,
+    /// The name as written.
+    pub name: Text,
+    /// The value.
+    pub value: Text,
+}
+
+/// The section COLOR.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Color {
+    /// Every assignment in the order written.
+    pub entries: Vec<ColorEntry>,
+    /// From `COLOR:` to END.
+    pub span: Span,
+}
+
+impl Color {
+    /// The last value given for `key`, unless it is empty.
+    pub fn last(&self, key: ColorKey) -> Option<&Text> {
+        let found = self.entries.iter().rev().find(|entry| entry.key == key);
+        found.map(|entry| &entry.value).filter(|value| !value.as_str().is_empty())
+    }
+
+    /// The filters, first met by the light first.
+    pub fn filters(&self) -> impl Iterator<Item = &Text> {
+        self.entries.iter().filter(|entry| entry.key == ColorKey::Filter).map(|entry| &entry.value)
+    }
+
+    /// The labels of `spectrum`: one, or four for I, Q, U, V; each with its place.
+    pub fn spectrum(&self) -> Vec<Text> {
+        let Some(list) = self.last(ColorKey::Spectrum) else { return Vec::new() };
+        let mut at = 0;
+        let mut labels = Vec::new();
+        for word in list.as_str().split(',') {
+            let trimmed = word.trim();
+            let start = at + (word.len() - word.trim_start().len());
+            labels.push(list.part(start..start + trimmed.len()));
+            at += word.len() + 1;
+        }
+        labels
+    }
+}
