@@ -32,6 +32,7 @@ pub mod shadow;
 pub mod size;
 pub mod slope;
 pub mod spec;
+pub mod special;
 pub mod stack;
 
 pub use defect::{Defect, Mode};

@@ -2,6 +2,8 @@
 
 use crate::spec::{Family, Member, Spec};
 
+pub mod equation;
+pub mod kubelka_munk;
 pub mod table;
 
 /// A reflectance as a function of wavelength.
@@ -11,7 +13,7 @@ pub trait Reflectance: Send + Sync {
 }
 
 /// All of them, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Reflectance>] = &[&table::SPEC];
+pub const ALL: &[&Spec<dyn Reflectance>] = &[&table::SPEC, &equation::SPEC, &kubelka_munk::SPEC];
 
 impl Member for dyn Reflectance {
     const FAMILY: Family = Family::Reflectance;

@@ -1,0 +1,30 @@
+//! The same density in all directions: p = 1/4π.
+
+use std::f64::consts::FRAC_1_PI;
+
+use super::Phase;
+use crate::spec::{Class, Laws, Spec};
+
+/// How programs name and build an [`Isotropic`] phase function.
+pub const SPEC: Spec<dyn Phase> = Spec {
+    class: Class {
+        name: "Isotropic_Phase_Function",
+        parent: "Phase_Function",
+        summary: "The same in all directions",
+        equation: "p = 1/(4 pi)",
+        source: "chandrasekhar-1960",
+        params: &[],
+        laws: Laws::NONE,
+    },
+    build: |_| Ok(Box::new(Isotropic)),
+};
+
+/// Isotropic scattering.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Isotropic;
+
+impl Phase for Isotropic {
+    fn at_cosine(&self, _: f64) -> f64 {
+        0.25 * FRAC_1_PI
+    }
+}

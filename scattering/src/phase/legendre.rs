@@ -1,0 +1,62 @@
+//! Phase function given by six Legendre coefficients.
+//!
+//! $$ p = \frac{1}{4\pi} \sum_{l=0}^{5} (2l+1)\,c_l\,P_l(\cos\theta) $$
+//!
+//! c_0 = 1 normalizes it, c_1 is the mean cosine. Nothing keeps a truncated series positive.
+//!
+//! S. Chandrasekhar, *Radiative Transfer* (Dover, 1960), §3.
+
+use std::f64::consts::FRAC_1_PI;
+
+use super::Phase;
+use crate::{
+    Defect,
+    spec::{Class, Laws, Param, Spec},
+};
+
+/// How programs name, parameterize and build a [`Legendre`] phase function.
+pub const SPEC: Spec<dyn Phase> = Spec {
+    class: Class {
+        name: "Legendre_Phase_Function",
+        parent: "Phase_Function",
+        summary: "Six Legendre coefficients",
+        equation: "p = sum (2l+1) c_l P_l(cos(theta))/(4 pi)",
+        source: "chandrasekhar-1960",
+        params: &[&[
+            Param::number("c0", "1", "1", "Coefficient of P_0: the integral over all directions"),
+            Param::number("c1", "0.65", "1", "Coefficient of P_1: the mean cosine"),
+            Param::number("c2", "0.42", "1", "Coefficient of P_2"),
+            Param::number("c3", "0", "1", "Coefficient of P_3"),
+            Param::number("c4", "0", "1", "Coefficient of P_4"),
+            Param::number("c5", "0", "1", "Coefficient of P_5"),
+        ]],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let norm = if node.reproduces(Defect::PhaseNorm) { 1.0 } else { 0.25 * FRAC_1_PI };
+        let mut terms = ["c0", "c1", "c2", "c3", "c4", "c5"].map(|name| node.number(name));
+        for (l, term) in terms.iter_mut().enumerate() {
+            *term *= norm * (2 * l + 1) as f64;
+        }
+        Ok(Box::new(Legendre { terms }))
+    },
+};
+
+/// A Legendre series.
+#[derive(Clone, Copy, Debug)]
+pub struct Legendre {
+    /// (2l+1) c_l with the norm.
+    terms: [f64; 6],
+}
+
+impl Phase for Legendre {
+    fn at_cosine(&self, cos: f64) -> f64 {
+        let (mut below, mut p, mut sum) = (0.0, 1.0, 0.0);
+        for (l, term) in self.terms.iter().enumerate() {
+            sum += term * p;
+            let l = l as f64;
+            (below, p) = (p, ((2.0 * l + 1.0) * cos * p - l * below) / (l + 1.0));
+        }
+        sum
+    }
+}

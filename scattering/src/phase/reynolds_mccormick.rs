@@ -1,0 +1,132 @@
+//! Reynolds–McCormick phase functions: Henyey–Greenstein with a free exponent.
+//!
+//! $$ p = K\,(1 + g^2 - 2g\cos\theta)^{-(\alpha+1)}, \qquad
+//!    K = \frac{\alpha g}{\pi}\,\frac{(1-g^2)^{2\alpha}}{(1+g)^{2\alpha} - (1-g)^{2\alpha}} $$
+//!
+//! |g| < 1; α = 1/2 is Henyey–Greenstein. With y = 2α artanh g the norm is
+//! K = (g/artanh g)(1−g²)^α (y/sinh y)/4π, which has no singular cases. The form with two lobes is
+//! ½(1+c)p_g + ½(1−c)p_{−g}.
+//!
+//! L. O. Reynolds and N. J. McCormick, JOSA 70, 1206 (1980).
+
+use std::f64::consts::{FRAC_1_PI, PI};
+
+use super::{Phase, henyey_greenstein::asymmetry};
+use crate::{
+    Defect, Node,
+    spec::{Class, Laws, Param, ParamError, Spec},
+};
+
+/// How programs name, parameterize and build a phase function of one [`Lobe`].
+pub const SPEC: Spec<dyn Phase> = Spec {
+    class: Class {
+        name: "Reynolds_McCormick_Phase_Function",
+        parent: "Phase_Function",
+        summary: "One lobe with a free exponent",
+        equation: "p = K (1+g^2-2g cos(theta))^-(alpha+1)",
+        source: "reynolds-mccormick-1980",
+        params: &[LOBE],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(Lobe::read(node)?)),
+};
+
+/// How programs name, parameterize and build a [`TwoLobes`] phase function.
+pub const DOUBLE: Spec<dyn Phase> = Spec {
+    class: Class {
+        name: "Double_Reynolds_McCormick_Phase_Function",
+        parent: "Phase_Function",
+        summary: "A forward and a backward lobe with a free exponent",
+        equation: "p = |(1+c)/2 RM(g) + (1-c)/2 RM(-g)|",
+        source: "reynolds-mccormick-1980",
+        params: &[
+            LOBE,
+            &[Param::number("c", "0.1", "1", "Balance: 1 only the lobe of g, -1 that of -g")],
+        ],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let c = node.number("c");
+        let lobe = Lobe::read(node)?;
+        Ok(Box::new(TwoLobes { lobe, shares: (0.5 * (1.0 + c), 0.5 * (1.0 - c)) }))
+    },
+};
+
+const LOBE: &[Param] = &[
+    Param::number("g", "0.01", "1", "Asymmetry, -1 < g < 1"),
+    Param::number("alpha", "0.5", "1", "Exponent; 0.5 is Henyey-Greenstein"),
+];
+
+/// One Reynolds–McCormick lobe.
+#[derive(Clone, Copy, Debug)]
+pub struct Lobe {
+    g: f64,
+    alpha: f64,
+    norm: f64,
+}
+
+impl Lobe {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let (g, alpha) = (asymmetry(node, "g")?, node.number("alpha"));
+        if !alpha.is_finite() {
+            return Err(ParamError::new("alpha", format!("{alpha} is not an exponent")));
+        }
+        let compat = node.reproduces(Defect::ReynoldsNorm);
+        let norm = if compat { compat_norm(g, alpha) } else { norm(g, alpha) };
+        Ok(Self { g, alpha, norm })
+    }
+}
+
+/// K for which ∫ p dΩ = 1.
+fn norm(g: f64, alpha: f64) -> f64 {
+    let over = |x: f64, f: f64| if x == 0.0 { 1.0 } else { x / f };
+    let y = 2.0 * alpha * g.atanh();
+    0.25 * FRAC_1_PI * over(g, g.atanh()) * (1.0 - g * g).powf(alpha) * over(y, y.sinh())
+}
+
+/// K with g² in the place of g in the denominator.
+fn compat_norm(g: f64, alpha: f64) -> f64 {
+    let (g2, twice) = (g * g, 2.0 * alpha);
+    alpha * g / PI * (1.0 - g2).powf(twice) / ((1.0 + g2).powf(twice) - (1.0 - g2).powf(twice))
+}
+
+impl Phase for Lobe {
+    fn at_cosine(&self, cos: f64) -> f64 {
+        self.norm * (1.0 + self.g * self.g - 2.0 * self.g * cos).powf(-self.alpha - 1.0)
+    }
+}
+
+/// A lobe and its image in the plane across the beam.
+#[derive(Clone, Copy, Debug)]
+pub struct TwoLobes {
+    lobe: Lobe,
+    shares: (f64, f64),
+}
+
+impl Phase for TwoLobes {
+    fn at_cosine(&self, cos: f64) -> f64 {
+        let (a, b) = self.shares;
+        (a * self.lobe.at_cosine(cos) + b * self.lobe.at_cosine(-cos)).abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_norm_is_the_one_of_the_paper() {
+        for (g, alpha) in [(0.5f64, 0.8f64), (-0.3, 1.7), (0.9, -0.4)] {
+            let twice = 2.0 * alpha;
+            let printed = alpha * g / PI * (1.0 - g * g).powf(twice)
+                / ((1.0 + g).powf(twice) - (1.0 - g).powf(twice));
+            assert!((norm(g, alpha) / printed - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn alpha_one_half_is_henyey_greenstein() {
+        let g = 0.6f64;
+        assert!((norm(g, 0.5) - 0.25 * FRAC_1_PI * (1.0 - g * g)).abs() < 1e-16);
+    }
+}

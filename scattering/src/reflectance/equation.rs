@@ -1,0 +1,54 @@
+//! Reflectance given by a formula of the wavelength in µm.
+
+use super::Reflectance;
+use crate::spec::{Class, Formula, Kind, Laws, Param, Spec};
+
+/// How programs name, parameterize and build an [`EquationReflectance`].
+pub const SPEC: Spec<dyn Reflectance> = Spec {
+    class: Class {
+        name: "Equation_Reflectance",
+        parent: "Reflectance",
+        summary: "Reflectance from a formula of wavelength",
+        equation: "R = expression(x), x = lambda in um",
+        source: "nicodemus-1977",
+        params: &[&[Param {
+            name: "expression",
+            kind: Kind::Formula,
+            default: "1",
+            unit: "1",
+            doc: "Reflectance as a formula of x, the wavelength in um",
+        }]],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        Ok(Box::new(EquationReflectance { expression: node.formula("expression").clone() }))
+    },
+};
+
+/// A reflectance given by a formula.
+pub struct EquationReflectance {
+    expression: Formula,
+}
+
+impl Reflectance for EquationReflectance {
+    fn at(&self, lambda: f64) -> f64 {
+        (self.expression)(lambda)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{Mode, Node, Value, spec};
+
+    #[test]
+    fn formula_is_asked_at_the_wavelength() {
+        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
+            .with("expression", Value::Formula(Arc::new(|x| 0.1 + 0.5 * x)))
+            .unwrap();
+        let reflectance = spec::build::<dyn Reflectance>(&node).unwrap();
+        assert_eq!(reflectance.at(0.4), 0.1 + 0.5 * 0.4);
+    }
+}
