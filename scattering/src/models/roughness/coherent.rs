@@ -1,0 +1,77 @@
+//! Scattering that is coherent over a range of interfaces with the same profile.
+//!
+//! $$ \mathbf{J} = \sqrt{\mathrm{PSD}} \sum_{m} \mathbf{J}_m $$
+//!
+//! with the amplitudes of [`Interfaces`].
+
+use std::{ops::Range, slice};
+
+use num_complex::Complex64;
+
+use super::{Rough, interfaces::Interfaces};
+use crate::{
+    Direction, Incidence, Jones, Mueller, Node, ParamError,
+    models::{Brdf, Common},
+};
+
+/// Interfaces of a film stack that are rough with one profile.
+pub(super) struct Coherent {
+    rough: Rough,
+    interfaces: Interfaces,
+    which: Range<usize>,
+}
+
+impl Coherent {
+    /// Of the interfaces of `films`, the substrate's first, those in `which`.
+    pub(super) fn new(
+        rough: Rough,
+        films: &[(Complex64, f64)],
+        which: Range<usize>,
+    ) -> Box<dyn Brdf> {
+        let interfaces = Interfaces::new(&rough.common, films);
+        Box::new(Self { rough, interfaces, which })
+    }
+
+    /// One film: its index is the parameter `film`, its thickness `thickness`.
+    pub(super) fn one_film(node: &Node, which: Range<usize>) -> Result<Box<dyn Brdf>, ParamError> {
+        let rough = Rough::read(node)?;
+        let film = node.index("film").at(rough.common.lambda);
+        let films = [(film, super::thickness(node, "thickness")?)];
+        Ok(Self::new(rough, &films, which))
+    }
+
+    fn sum(&self, jones: &[Jones]) -> Jones {
+        jones[self.which.clone()].iter().fold(Jones::default(), |sum, j| sum + *j)
+    }
+}
+
+impl Brdf for Coherent {
+    fn common(&self) -> &Common {
+        &self.rough.common
+    }
+
+    fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
+        let mut out = [Mueller::ZERO];
+        self.mueller_batch(incidence, slice::from_ref(direction), &mut out);
+        out[0]
+    }
+
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        self.interfaces.amplitudes(incidence, directions, |place, jones| {
+            let density = self.rough.density(incidence, &directions[place]);
+            out[place] = self.sum(jones).mueller() * density;
+        });
+    }
+
+    fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
+        let mut out = None;
+        self.interfaces.amplitudes(incidence, slice::from_ref(direction), |_, jones| {
+            out = Some(self.sum(jones).scaled(self.rough.density(incidence, direction).sqrt()));
+        });
+        out
+    }
+
+    fn is_coherent(&self) -> bool {
+        true
+    }
+}
