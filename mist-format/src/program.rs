@@ -2,12 +2,19 @@
 //!
 //! [`parse`] reads a program, [`Program`]'s `Display` prints it back with its comments.
 
+mod check;
 mod color;
+mod lex;
+mod parse;
 mod text;
 
+pub use check::REQUIRED_VARIABLES;
 pub use color::{Color, ColorEntry, ColorKey};
+pub use parse::MAX_PROGRAM_BYTES;
 pub use text::Text;
 
+use crate::diagnostic::Diagnostic;
+use crate::dialect::Dialect;
 use crate::span::Span;
 
 /// A whole program.
@@ -367,4 +374,13 @@ pub struct Comment {
     pub text: String,
     /// From the semicolon to the end of the line.
     pub span: Span,
+}
+
+/// Reads a program.
+///
+/// # Errors
+/// Everything found wrong with it, in the order of the text: what NIST's program refuses or
+/// never finishes reading, in both dialects; its misreadings, in the sound dialect.
+pub fn parse(text: &str, dialect: Dialect) -> Result<Program, Vec<Diagnostic>> {
+    parse::parse(text, dialect)
 }

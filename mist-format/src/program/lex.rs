@@ -1,0 +1,248 @@
+//! The two readers that NIST's program has, over a text without its comments.
+//!
+//! A comment goes from `;` to the end of the line, also inside quotes. A *token* is a quoted
+//! text or everything up to white space; a *name* is everything up to white space or `=`.
+
+use super::{Comment, Text};
+use crate::number::is_blank;
+use crate::span::Span;
+
+/// Why reading cannot go on. NIST's program waits forever in each of these cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stop {
+    /// The text ends.
+    End,
+    /// The text ends inside the quotes that open here.
+    OpenQuote(Span),
+    /// A comment in the last line, which has no line end.
+    OpenComment(Span),
+}
+
+/// A token with what was odd about it.
+#[derive(Clone, Debug)]
+pub(super) struct Token {
+    pub(super) text: Text,
+    /// Comments inside the quotes.
+    pub(super) comments: Vec<Span>,
+}
+
+/// A name with what was odd about it.
+#[derive(Clone, Debug)]
+pub(super) struct Name {
+    pub(super) text: Text,
+    /// An equal sign before it.
+    pub(super) equals: Option<Span>,
+}
+
+/// Reads a text from the beginning to the end.
+#[derive(Debug)]
+pub(super) struct Reader<'t> {
+    text: &'t str,
+    at: usize,
+    comments: Vec<Comment>,
+    open_comment: Option<Span>,
+}
+
+impl<'t> Reader<'t> {
+    pub(super) fn new(text: &'t str) -> Self {
+        Self { text, at: 0, comments: Vec::new(), open_comment: None }
+    }
+
+    /// The text behind the place reached.
+    pub(super) fn rest(&self) -> &'t str {
+        &self.text[self.at..]
+    }
+
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    /// Goes back (or on) to a place; comments behind it will be read again.
+    pub(super) fn go_to(&mut self, at: usize) {
+        self.at = at;
+        self.open_comment = None;
+        self.comments.truncate(self.comments.partition_point(|comment| comment.span.start < at));
+    }
+
+    pub(super) fn into_comments(self) -> Vec<Comment> {
+        self.comments
+    }
+
+    /// Skips white space and comments; says whether something follows.
+    pub(super) fn skip_blanks(&mut self) -> bool {
+        while self.peek().is_some_and(is_blank) {
+            self.at += 1;
+        }
+        self.peek().is_some()
+    }
+
+    /// Reads a token.
+    pub(super) fn token(&mut self) -> Result<Token, Stop> {
+        if !self.skip_blanks() {
+            return Err(self.stop());
+        }
+        if self.peek() == Some(b'"') {
+            return self.quoted();
+        }
+        let text = self.word(is_blank);
+        Ok(Token { text, comments: Vec::new() })
+    }
+
+    /// Reads a name.
+    pub(super) fn name(&mut self) -> Result<Name, Stop> {
+        let mut equals = None;
+        while let Some(byte) = self.peek().filter(|byte| is_blank(*byte) || *byte == b'=') {
+            if byte == b'=' && equals.is_none() {
+                equals = Some(Span::new(self.at, self.at + 1));
+            }
+            self.at += 1;
+        }
+        if self.peek().is_none() {
+            return Err(self.stop());
+        }
+        Ok(Name { text: self.word(|byte| is_blank(byte) || byte == b'='), equals })
+    }
+
+    /// Goes behind the next `=`. What stands before it is ignored; its place, if there is any.
+    pub(super) fn equals(&mut self) -> Result<Option<Span>, Stop> {
+        let mut junk: Option<Span> = None;
+        while let Some(byte) = self.peek() {
+            let here = Span::new(self.at, self.at + 1);
+            self.at += 1;
+            match byte {
+                b'=' => return Ok(junk),
+                byte if is_blank(byte) => {}
+                _ => junk = Some(junk.map_or(here, |junk| junk.to(here))),
+            }
+        }
+        Err(self.stop())
+    }
+
+    /// Why nothing follows.
+    pub(super) fn stop(&self) -> Stop {
+        self.open_comment.map_or(Stop::End, Stop::OpenComment)
+    }
+
+    /// Everything up to a byte that ends it. The place is at its first byte.
+    fn word(&mut self, ends: impl Fn(u8) -> bool) -> Text {
+        let start = self.at;
+        // A comment ends a word too: it reaches to the line end.
+        while self.peek().is_some_and(|byte| !ends(byte)) {
+            self.at += 1;
+        }
+        let raw = &self.text[start..self.at];
+        let end = raw.find(';').unwrap_or(raw.len());
+        Text::new(&raw[..end], start)
+    }
+
+    fn quoted(&mut self) -> Result<Token, Stop> {
+        let quote = self.at;
+        self.at += 1;
+        let mut text = String::new();
+        let mut pieces = vec![(0, self.at)];
+        let mut comments = Vec::new();
+        let mut piece = self.at;
+        loop {
+            match self.text.as_bytes().get(self.at) {
+                None => return Err(Stop::OpenQuote(Span::new(quote, quote + 1))),
+                Some(b'"') => break,
+                Some(b';') => {
+                    text.push_str(&self.text[piece..self.at]);
+                    let from = self.at;
+                    if self.peek().is_none() {
+                        return Err(Stop::OpenQuote(Span::new(quote, quote + 1)));
+                    }
+                    comments.push(Span::new(from, self.at));
+                    piece = self.at;
+                    pieces.push((text.len(), piece));
+                }
+                Some(_) => self.at += 1,
+            }
+        }
+        text.push_str(&self.text[piece..self.at]);
+        self.at += 1;
+        Ok(Token { text: Text::read(text, Span::new(quote, self.at), true, pieces), comments })
+    }
+
+    /// The next byte that is in no comment; comments before it are noted.
+    fn peek(&mut self) -> Option<u8> {
+        let bytes = self.text.as_bytes();
+        if bytes.get(self.at) == Some(&b';') {
+            let line = &self.text[self.at..];
+            let Some(len) = line.find('\n') else {
+                self.open_comment = Some(Span::new(self.at, self.text.len()));
+                self.at = self.text.len();
+                return None;
+            };
+            let text = line[1..len].trim_end_matches('\r').to_owned();
+            let span = Span::new(self.at, self.at + 1 + text.len());
+            self.comments.push(Comment { text, span });
+            self.at += len;
+        }
+        bytes.get(self.at).copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tokens(text: &str) -> (Vec<String>, Stop) {
+        let mut reader = Reader::new(text);
+        let mut found = Vec::new();
+        loop {
+            match reader.token() {
+                Ok(token) => found.push(token.text.to_string()),
+                Err(stop) => return (found, stop),
+            }
+        }
+    }
+
+    #[test]
+    fn a_token_is_quoted_or_ends_at_white_space() {
+        let (found, stop) = tokens("a \"b c\"d e\"f;x\n\"\"");
+        assert_eq!(found, ["a", "b c", "d", "e\"f", ""]);
+        assert_eq!(stop, Stop::End);
+    }
+
+    #[test]
+    fn a_comment_cuts_words_and_strings_alike() {
+        assert_eq!(tokens("a;b\nc").0, ["a", "c"]);
+        let text = "\"a;b\nc\" ";
+        let token = Reader::new(text).token().unwrap();
+        assert_eq!(token.text.as_str(), "a\nc");
+        assert_eq!(token.comments[0].of(text), ";b");
+        assert_eq!(token.text.locate(Span::new(2, 3)).of(text), "c");
+    }
+
+    #[test]
+    fn names_end_at_equal_signs_and_skip_them() {
+        let mut reader = Reader::new(" = = a=b c");
+        let name = reader.name().unwrap();
+        assert_eq!((name.text.as_str(), name.equals), ("a", Some(Span::new(1, 2))));
+        assert_eq!(reader.equals(), Ok(None));
+        assert_eq!(reader.name().unwrap().text.as_str(), "b");
+    }
+
+    #[test]
+    fn junk_before_an_equal_sign_has_a_place() {
+        let text = "c junk words = 5";
+        let mut reader = Reader::new(text);
+        reader.name().unwrap();
+        assert_eq!(reader.equals().unwrap().unwrap().of(text), "junk words");
+    }
+
+    #[test]
+    fn what_never_ends_is_told() {
+        assert_eq!(tokens("\"ab").1, Stop::OpenQuote(Span::new(0, 1)));
+        assert_eq!(tokens("a ;b").1, Stop::OpenComment(Span::new(2, 4)));
+    }
+
+    #[test]
+    fn comments_are_kept_without_line_ends() {
+        let mut reader = Reader::new("; one\r\na ; two\n");
+        while reader.token().is_ok() {}
+        let texts: Vec<_> = reader.into_comments().into_iter().map(|c| c.text).collect();
+        assert_eq!(texts, [" one", " two"]);
+    }
+}
