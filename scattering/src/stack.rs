@@ -4,8 +4,14 @@ use num_complex::Complex64;
 
 use crate::{
     optics::Index,
-    spec::{Family, Member, Spec},
+    spec::{Family, Member, ParamError, Spec},
 };
+
+pub mod double;
+pub mod graded;
+pub mod list;
+pub mod none;
+pub mod single;
 
 /// One film.
 #[derive(Clone, Debug)]
@@ -31,7 +37,8 @@ impl Stack {
 }
 
 /// All of them, in the order they are listed to users.
-pub const ALL: &[&Spec<Stack>] = &[];
+pub const ALL: &[&Spec<Stack>] =
+    &[&none::SPEC, &list::SPEC, &single::SPEC, &double::SPEC, &graded::SPEC];
 
 impl Member for Stack {
     const FAMILY: Family = Family::Stack;
@@ -39,4 +46,11 @@ impl Member for Stack {
     fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
         Box::new(ALL.iter().copied())
     }
+}
+
+fn check_thickness(parameter: &str, thickness: f64) -> Result<f64, ParamError> {
+    if thickness >= 0.0 && thickness.is_finite() {
+        return Ok(thickness);
+    }
+    Err(ParamError::new(parameter, format!("{thickness} um is not a thickness")))
 }

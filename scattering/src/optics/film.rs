@@ -62,13 +62,13 @@ pub struct Fields {
     pub w: Complex64,
 }
 
-/// The side a wave comes from.
+/// A wave that meets the stack, by the side it comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum From {
+pub enum Wave {
     /// From the outer medium: "12".
-    Outside,
+    FromOutside,
     /// From the substrate: "21".
-    Substrate,
+    FromSubstrate,
 }
 
 /// Films between two media at one wavelength, prepared for many angles.
@@ -192,24 +192,24 @@ impl Films {
 
     /// Reflection of light from outside.
     pub fn r12(&self, kappa: Complex64) -> Pair {
-        self.entrance(From::Outside, kappa * kappa).reflection()
+        self.entrance(Wave::FromOutside, kappa * kappa).reflection()
     }
 
     /// Reflection of light from the substrate.
     pub fn r21(&self, kappa: Complex64) -> Pair {
-        self.entrance(From::Substrate, kappa * kappa).reflection()
+        self.entrance(Wave::FromSubstrate, kappa * kappa).reflection()
     }
 
     /// Transmission of electric fields from outside into the substrate.
     pub fn t12(&self, kappa: Complex64) -> Pair {
         let ratio = self.outer.index / self.substrate.index;
-        self.entrance(From::Outside, kappa * kappa).transmission(ratio)
+        self.entrance(Wave::FromOutside, kappa * kappa).transmission(ratio)
     }
 
     /// Transmission of electric fields from the substrate to the outside.
     pub fn t21(&self, kappa: Complex64) -> Pair {
         let ratio = self.substrate.index / self.outer.index;
-        self.entrance(From::Substrate, kappa * kappa).transmission(ratio)
+        self.entrance(Wave::FromSubstrate, kappa * kappa).transmission(ratio)
     }
 
     /// [`Films::r12`] for real κ ≤ n of a transparent outer medium where `q_outer` = n cos θ and
@@ -217,7 +217,7 @@ impl Films {
     pub fn r12_known(&self, q_outer: f64, kappa_squared: f64) -> Pair {
         if !self.layers.is_empty() {
             let q0 = Complex64::from(q_outer);
-            return self.entrance_with(From::Outside, kappa_squared.into(), q0).reflection();
+            return self.entrance_with(Wave::FromOutside, kappa_squared.into(), q0).reflection();
         }
         let q = self.root(self.substrate.epsilon - kappa_squared);
         let (e0, et) = (self.outer.epsilon.re, self.substrate.epsilon);
@@ -232,24 +232,24 @@ impl Films {
     /// # Panics
     ///
     /// If `out` does not have one element more than there are films.
-    pub fn fields_at_interfaces(&self, from: From, kappa: Complex64, out: &mut [Fields]) {
+    pub fn fields_at_interfaces(&self, from: Wave, kappa: Complex64, out: &mut [Fields]) {
         assert_eq!(out.len(), self.layers.len() + 1, "one interface more than films");
         let kappa2 = kappa * kappa;
         let (entry, exit) = self.ends(from);
         let place = |passed: usize| match from {
-            From::Outside => passed,
-            From::Substrate => self.layers.len() - passed,
+            Wave::FromOutside => passed,
+            Wave::FromSubstrate => self.layers.len() - passed,
         };
         let mut v = self.exit_vectors(exit, kappa2);
         out[place(0)] = v.fields();
-        for (passed, layer) in self.from_exit(from).enumerate() {
+        for (passed, layer) in self.exit_to_entrance(from).enumerate() {
             v.pass(layer, self.root(layer.medium.epsilon - kappa2));
             out[place(passed + 1)] = v.fields();
         }
         let amplitude = self.amplitude(entry, kappa2, &v);
         // Π e^{iδ} of the films between the entrance and the interface.
         let mut phase = ONE;
-        for (passed, layer) in self.from_exit(from).enumerate().rev() {
+        for (passed, layer) in self.exit_to_entrance(from).enumerate().rev() {
             let here = &mut out[place(passed + 1)];
             *here = here.scaled(amplitude, phase);
             phase *= phase_factor(self.root(layer.medium.epsilon - kappa2), layer.phase);
@@ -260,14 +260,14 @@ impl Films {
     /// Fields at the depth `depth` µm below the outer face, for a wave from the side `from` with
     /// unit amplitude where it enters the stack. Negative depths lie in the outer medium, depths
     /// beyond the films in the substrate.
-    pub fn fields_at_depth(&self, from: From, kappa: Complex64, depth: f64) -> Fields {
+    pub fn fields_at_depth(&self, from: Wave, kappa: Complex64, depth: f64) -> Fields {
         let kappa2 = kappa * kappa;
         let (entry, exit) = self.ends(from);
         let total: f64 = self.layers.iter().map(|layer| layer.thickness).sum();
         // Distance from the exit face, positive towards the source.
         let distance = match from {
-            From::Outside => total - depth,
-            From::Substrate => depth,
+            Wave::FromOutside => total - depth,
+            Wave::FromSubstrate => depth,
         };
         let mut v = self.exit_vectors(exit, kappa2);
         if distance < 0.0 {
@@ -279,7 +279,7 @@ impl Films {
         let mut found = None;
         let mut left = ONE;
         let mut passed = 0.0;
-        for layer in self.from_exit(from) {
+        for layer in self.exit_to_entrance(from) {
             let q = self.root(layer.medium.epsilon - kappa2);
             if found.is_none() && distance <= passed + layer.thickness {
                 let part = self.part(layer.medium, distance - passed);
@@ -311,19 +311,22 @@ impl Films {
     }
 
     /// (entrance medium, exit medium).
-    fn ends(&self, from: From) -> (Medium, Medium) {
+    fn ends(&self, from: Wave) -> (Medium, Medium) {
         match from {
-            From::Outside => (self.outer, self.substrate),
-            From::Substrate => (self.substrate, self.outer),
+            Wave::FromOutside => (self.outer, self.substrate),
+            Wave::FromSubstrate => (self.substrate, self.outer),
         }
     }
 
     /// The films in the order from the exit to the entrance.
-    fn from_exit(&self, from: From) -> impl DoubleEndedIterator<Item = &Layer> + ExactSizeIterator {
+    fn exit_to_entrance(
+        &self,
+        from: Wave,
+    ) -> impl DoubleEndedIterator<Item = &Layer> + ExactSizeIterator {
         let last = self.layers.len();
         (0..last).map(move |j| match from {
-            From::Outside => &self.layers[j],
-            From::Substrate => &self.layers[last - 1 - j],
+            Wave::FromOutside => &self.layers[j],
+            Wave::FromSubstrate => &self.layers[last - 1 - j],
         })
     }
 
@@ -333,9 +336,9 @@ impl Films {
     }
 
     /// Carries `v` through all films and returns Π e^{iδ}.
-    fn pass_all(&self, from: From, kappa2: Complex64, v: &mut Vectors) -> Complex64 {
+    fn pass_all(&self, from: Wave, kappa2: Complex64, v: &mut Vectors) -> Complex64 {
         let mut phase = ONE;
-        for layer in self.from_exit(from) {
+        for layer in self.exit_to_entrance(from) {
             phase *= v.pass(layer, self.root(layer.medium.epsilon - kappa2));
         }
         phase
@@ -347,12 +350,12 @@ impl Films {
         Pair { s: 2.0 * y0.s / (v.s[0] * y0.s + v.s[1]), p: 2.0 * y0.p / (v.p[0] * y0.p + v.p[1]) }
     }
 
-    fn entrance(&self, from: From, kappa2: Complex64) -> Entrance {
+    fn entrance(&self, from: Wave, kappa2: Complex64) -> Entrance {
         let (entry, _) = self.ends(from);
         self.entrance_with(from, kappa2, self.root(entry.epsilon - kappa2))
     }
 
-    fn entrance_with(&self, from: From, kappa2: Complex64, q0: Complex64) -> Entrance {
+    fn entrance_with(&self, from: Wave, kappa2: Complex64, q0: Complex64) -> Entrance {
         let (entry, exit) = self.ends(from);
         let mut v = self.exit_vectors(exit, kappa2);
         let phase = self.pass_all(from, kappa2, &mut v);
@@ -521,7 +524,7 @@ mod tests {
         // smaller than at the surface.
         let glass = Films::new(&[], ONE, c(1.5, 0.0), 0.55);
         let kappa = glass.kappa_inside(0.9);
-        let at = |depth| glass.fields_at_depth(From::Substrate, kappa, depth).e.norm();
+        let at = |depth| glass.fields_at_depth(Wave::FromSubstrate, kappa, depth).e.norm();
         assert!(at(-0.275) < 0.2 * at(0.0));
         assert!((glass.r21(kappa).s.norm() - 1.0).abs() < 1e-15);
     }
@@ -548,11 +551,11 @@ mod tests {
         let films = stack();
         let kappa = c(0.6, 0.0);
         let mut at = [Fields::default(); 3];
-        for (from, first, last) in [(From::Outside, 2, 0), (From::Substrate, 0, 2)] {
+        for (from, first, last) in [(Wave::FromOutside, 2, 0), (Wave::FromSubstrate, 0, 2)] {
             films.fields_at_interfaces(from, kappa, &mut at);
             let (r, t, entry, exit) = match from {
-                From::Outside => (films.r12(kappa), films.t12(kappa), 1.0, 1.5),
-                From::Substrate => (films.r21(kappa), films.t21(kappa), 1.5, 1.0),
+                Wave::FromOutside => (films.r12(kappa), films.t12(kappa), 1.0, 1.5),
+                Wave::FromSubstrate => (films.r21(kappa), films.t21(kappa), 1.5, 1.0),
             };
             assert!(close(at[first].e, 1.0 + r.s, 1e-14));
             assert!(close(at[first].u, 1.0 + r.p, 1e-14));
@@ -566,7 +569,7 @@ mod tests {
         let films = stack();
         let kappa = c(0.6, 0.0);
         let mut at = [Fields::default(); 3];
-        for from in [From::Outside, From::Substrate] {
+        for from in [Wave::FromOutside, Wave::FromSubstrate] {
             films.fields_at_interfaces(from, kappa, &mut at);
             for (interface, depth) in [(2, 0.0), (1, 0.2), (0, 0.33)] {
                 for nudge in [-1e-12, 0.0, 1e-12] {

@@ -1,0 +1,120 @@
+//! From the text of a parameter to its typed value, for the forms that the reference file uses.
+
+use std::sync::Arc;
+
+use scattering::{
+    Class, Kind, Mode, Node, Value,
+    optics::{Axis, Index, Rise, Table},
+    spec::find_class,
+    stack::Film,
+};
+
+use super::FILE;
+
+/// The class `name` with its defaults and then `params`, in their order.
+pub(crate) fn node(name: &str, params: &[(&str, &str)], mode: Mode) -> Node {
+    let mut node = Node::with_defaults(class(name), mode);
+    for (path, text) in params {
+        set(&mut node, path, text);
+    }
+    node
+}
+
+fn class(name: &str) -> &'static Class {
+    find_class(name).unwrap_or_else(|| panic!("no class {name}"))
+}
+
+fn set(node: &mut Node, path: &str, text: &str) {
+    let (name, rest) = path.split_once('.').map_or((path, None), |(a, b)| (a, Some(b)));
+    let (at, param) = node
+        .class
+        .parameter(name)
+        .unwrap_or_else(|| panic!("{} has no parameter {name}", node.class.name));
+    match rest {
+        Some(rest) => {
+            let Value::Member(child) = &mut node.values[at] else {
+                panic!("{name} of {} has no parameters", node.class.name)
+            };
+            set(Arc::make_mut(child), rest, text);
+        }
+        None => node.values[at] = value(param.kind, text, node),
+    }
+}
+
+fn value(kind: Kind, text: &str, node: &Node) -> Value {
+    match kind {
+        Kind::Number => Value::Number(number(text)),
+        Kind::Integer => Value::Integer(text.parse().unwrap()),
+        Kind::Text => Value::Text(text.into()),
+        Kind::File => Value::Text(file(text).into()),
+        Kind::Formula => formula(text),
+        Kind::Index => Value::Index(index(text)),
+        Kind::Table => Value::Table(table(text)),
+        Kind::Films => Value::Films(films(text)),
+        Kind::Member(..) => Value::Member(Arc::new(Node::with_defaults_noting(
+            class(text),
+            node.mode,
+            node.met.clone(),
+        ))),
+    }
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().unwrap_or_else(|_| panic!("{text:?} is not a number"))
+}
+
+fn file(name: &str) -> &'static str {
+    FILE["header"]["files"][name].as_str().unwrap_or_else(|| panic!("no file {name}"))
+}
+
+/// The one expression of the reference file, written out, or a constant.
+fn formula(text: &str) -> Value {
+    if text == "0.3+0.5*exp(-x^2)" {
+        // The minus that opens the parenthesis is "0 −": the exponent is −(x²).
+        return Value::Formula(Arc::new(|x: f64| 0.3 + 0.5 * (-(x * x)).exp()));
+    }
+    let value = number(text);
+    Value::Formula(Arc::new(move |_| value))
+}
+
+/// `n`, `(n,k)`, or a file with n and k in its second and third columns.
+fn index(text: &str) -> Index {
+    if let Ok(n) = text.parse() {
+        return Index::constant(n, 0.0);
+    }
+    if let Some(inner) = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')) {
+        let (n, k) = inner.split_once(',').unwrap_or((inner, "0"));
+        return Index::constant(number(n), number(k));
+    }
+    let rows = rows(file(text));
+    let column = |c: usize| {
+        let points: Vec<_> = rows.iter().map(|row| (row[0], row[c])).collect();
+        Table::points(&points, Axis::Linear, Rise::Linear)
+    };
+    Index { n: column(1), k: column(2) }
+}
+
+/// A constant, a file, or `table file: x y / x y / …`.
+fn table(text: &str) -> Table {
+    if let Ok(value) = text.parse() {
+        return Table::constant(value);
+    }
+    let rows = match text.strip_prefix("table file: ") {
+        Some(lines) => rows(&lines.replace(" / ", "\n")),
+        None => rows(file(text)),
+    };
+    let points: Vec<_> = rows.iter().map(|row| (row[0], row[1])).collect();
+    Table::points(&points, Axis::Linear, Rise::Linear)
+}
+
+/// The lines that consist of numbers only.
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    let numbers = |line: &str| line.split_whitespace().map(|word| word.parse().ok()).collect();
+    text.lines().filter(|line| !line.trim().is_empty()).filter_map(numbers).collect()
+}
+
+/// `material thickness material thickness …`, the film next to the substrate first.
+pub(crate) fn films(text: &str) -> Vec<Film> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    words.chunks(2).map(|w| Film { index: index(w[0]), thickness: number(w[1]) }).collect()
+}
