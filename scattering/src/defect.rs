@@ -56,6 +56,8 @@ pub enum Defect {
     GaussianPhaseSeries,
     /// Slope distributions use constants of twelve digits.
     SlopeConstants,
+    /// The cleanliness distribution uses constants of six digits.
+    CleanlinessDigits,
 }
 
 impl Defect {
@@ -99,6 +101,9 @@ impl Defect {
                 ("-", "the Gaussian phase function is normalized by a series for small widths")
             }
             Self::SlopeConstants => ("-", "constants of slope distributions have twelve digits"),
+            Self::CleanlinessDigits => {
+                ("-", "constants of the cleanliness distribution have six digits")
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Special functions and quadrature rules that several models need.
 
 pub mod bessel;
+pub mod gamma;
 pub mod gauss;
 pub mod riccati;

@@ -1,0 +1,78 @@
+//! A number of particles times a density of the diameter: n(d) = N p(d).
+
+use super::{SurfaceSize, VolumeSize};
+use crate::{
+    Node,
+    distribution::Distribution,
+    spec::{Class, Family, Laws, Param, ParamError, Spec},
+};
+
+/// How programs name, parameterize and build a [`Regular`] distribution over a volume.
+pub const VOLUME: Spec<dyn VolumeSize> = Spec {
+    class: Class {
+        name: "Regular_VolumeParticleSizeDistribution",
+        parent: "VolumeParticleSizeDistribution",
+        summary: "Number per volume times a density of the diameter",
+        equation: "n = N p(d)",
+        source: "deirmendjian-1969",
+        params: &[&[
+            DISTRIBUTION,
+            Param::number("numberdensity", "1E-5", "1/um^3", "Number of particles per volume"),
+        ]],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(Regular::read(node)?)),
+};
+
+/// How programs name, parameterize and build a [`Regular`] distribution over an area.
+pub const SURFACE: Spec<dyn SurfaceSize> = Spec {
+    class: Class {
+        name: "Regular_SurfaceParticleSizeDistribution",
+        parent: "SurfaceParticleSizeDistribution",
+        summary: "Number per area times a density of the diameter",
+        equation: "n = N p(d)",
+        source: "deirmendjian-1969",
+        params: &[&[
+            DISTRIBUTION,
+            Param::number("numberdensity", "0.001", "1/um^2", "Number of particles per area"),
+        ]],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(Regular::read(node)?)),
+};
+
+const DISTRIBUTION: Param = Param::member(
+    "distribution",
+    Family::Distribution,
+    "Distribution",
+    "Log_Normal_Distribution",
+    "Density of the diameter",
+);
+
+/// A number of particles with a density of the diameter.
+pub struct Regular {
+    distribution: Box<dyn Distribution>,
+    number: f64,
+}
+
+impl Regular {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let number = node.number("numberdensity");
+        if !(number >= 0.0 && number.is_finite()) {
+            return Err(ParamError::new("numberdensity", format!("{number} is not a density")));
+        }
+        Ok(Self { distribution: node.member::<dyn Distribution>("distribution")?, number })
+    }
+}
+
+impl VolumeSize for Regular {
+    fn density(&self, d: f64) -> f64 {
+        self.number * self.distribution.density(d)
+    }
+}
+
+impl SurfaceSize for Regular {
+    fn density(&self, d: f64) -> f64 {
+        self.number * self.distribution.density(d)
+    }
+}
