@@ -1,0 +1,86 @@
+//! The colours of the rows as squares, one line of squares per slow axis.
+
+use std::fmt::Write as _;
+
+use mist_engine::colour::{ColourTable, Layout};
+use mist_format::number::general;
+
+use super::{Display, MARGIN, WIDTH, spread, text};
+use crate::column;
+
+/// Side of a square, at most.
+const SIDE: f64 = 72.0;
+/// Squares narrower than this have no room for their intensity.
+const LABELLED: f64 = 40.0;
+/// Squares side by side, and lines of squares, at most.
+const MOST: usize = 48;
+/// Squares side by side where the table has no shape of its own.
+const WRAP: usize = 12;
+
+/// Draws the swatches below `top` and returns where they end.
+pub(super) fn draw(table: &ColourTable, display: &Display, top: f64, svg: &mut String) -> f64 {
+    let across = across(table);
+    let down = table.rows.len().div_ceil(across);
+    let columns = spread(across, MOST);
+    let side = ((WIDTH - 2.0 * MARGIN) / columns.len().max(1) as f64).min(SIDE);
+    text(svg, (MARGIN, top + 10.0), "fill=\"#555\"", &caption(table, side));
+    let top = top + 20.0;
+    let lines = spread(down, MOST);
+    for (j, &line) in lines.iter().enumerate() {
+        for (i, &column) in columns.iter().enumerate() {
+            let row = line * across + column;
+            if row < table.rows.len() {
+                let at = (MARGIN + side * i as f64, top + side * j as f64);
+                square(table, display, row, at, side, svg);
+            }
+        }
+    }
+    top + side * lines.len() as f64
+}
+
+/// How many squares stand side by side: the fastest axis of a grid, or the rows of a list
+/// before its slowest column changes.
+fn across(table: &ColourTable) -> usize {
+    if let Layout::Grid { axes, .. } = &table.layout {
+        return axes.last().map_or(1, |axis| axis.nodes.len()).max(1);
+    }
+    let slowest = |at: usize| column::place_values(&table.rows[at])[0];
+    let count = table.rows.len();
+    let run = (1..count).find(|&at| slowest(at) != slowest(0)).unwrap_or(count);
+    if run > 1 && count.is_multiple_of(run) && run < count { run } else { count.clamp(1, WRAP) }
+}
+
+fn caption(table: &ColourTable, side: f64) -> String {
+    let order = "in the order of the rows";
+    let hint = if side >= LABELLED { "; numbers are the intensity I" } else { "" };
+    format!("{} colours {order}, point at one for its angles{hint}", table.rows.len())
+}
+
+fn square(
+    table: &ColourTable,
+    display: &Display,
+    at: usize,
+    (x, y): (f64, f64),
+    side: f64,
+    svg: &mut String,
+) {
+    let row = &table.rows[at];
+    let intensity = row.xyz[0][1];
+    let names = column::place_names(table);
+    let places = names.iter().zip(column::place_values(row));
+    let title: String = places.map(|(name, v)| format!("{name} {} ", general(v, 6))).collect();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        svg,
+        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{side:.1}\" height=\"{side:.1}\" fill=\"{}\">\
+         <title>{}I {}</title></rect>",
+        display.hex(table, at),
+        title.replace('&', "&amp;").replace('<', "&lt;"),
+        general(intensity, 4),
+    );
+    if side >= LABELLED {
+        let ink = if display.is_dark(table, at) { "#fff" } else { "#000" };
+        let place = (x + 5.0, y + side - 6.0);
+        text(svg, place, &format!("font-size=\"10\" fill=\"{ink}\""), &general(intensity, 3));
+    }
+}
