@@ -1,0 +1,354 @@
+//! A case as it is asked: JSON → spectra, light, observer, method, filters and wanted RGB.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::{CaseError, fields::Fields};
+use crate::{
+    Adaptation, Extrapolation, Filter, Illuminant, Interpolation, Observer, RgbSpace, Spectrum,
+    name::Named, wavelength::Grid,
+};
+
+/// How XYZ are computed.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Method {
+    /// Σ R S c̄ / Σ S ȳ at 1 nm.
+    Sum,
+    /// 683 Σ L c̄ at 1 nm.
+    Absolute,
+    /// Σ L c̄ / Σ L ȳ at 1 nm.
+    Relative,
+    /// ASTM E308.
+    Astm,
+}
+
+const METHODS: [Named<Method>; 4] = [
+    Named("sum_1nm", Method::Sum),
+    Named("absolute_683", Method::Absolute),
+    Named("relative_Y1", Method::Relative),
+    Named("astm_e308", Method::Astm),
+];
+
+/// The spectra of a case, with `value_factor` applied.
+#[derive(Clone, Debug)]
+pub(super) enum Spectra {
+    /// Unpolarized light.
+    Values(Spectrum),
+    /// I, Q, U, V.
+    Stokes(Box<[Spectrum; 4]>),
+}
+
+/// A case as it is asked.
+#[derive(Clone, Debug)]
+pub(super) struct Case {
+    pub(super) spectra: Spectra,
+    /// `None`: what the grid suggests.
+    pub(super) interpolation: Option<Interpolation>,
+    pub(super) extrapolation: Extrapolation,
+    /// `None`: emission.
+    pub(super) illuminant: Option<Illuminant>,
+    pub(super) observer: Observer,
+    pub(super) method: Method,
+    pub(super) exposure: f64,
+    pub(super) filters: Vec<Filter>,
+    pub(super) rgb: Vec<(RgbSpace, Adaptation)>,
+}
+
+const KNOWN: [&str; 20] = [
+    "id",
+    "group",
+    "optional",
+    "quantity",
+    "note",
+    "expected",
+    "wavelengths",
+    "values",
+    "stokes",
+    "value_factor",
+    "interpolation",
+    "extrapolation",
+    "illuminant",
+    "custom_illuminant",
+    "observer",
+    "domain_nm",
+    "method",
+    "rgb_exposure",
+    "filters",
+    "rgb",
+];
+
+impl Case {
+    /// Reads a case; `illuminants` are those that came with the request.
+    pub(super) fn read(
+        fields: Fields<'_>,
+        illuminants: &BTreeMap<String, Illuminant>,
+    ) -> Result<Self, CaseError> {
+        fields.refuse_misspelt(&KNOWN)?;
+        let spectra = read_spectra(fields)?;
+        let illuminant = read_illuminant(fields, illuminants)?;
+        let method = read_method(fields, illuminant.is_some(), &spectra)?;
+        check_domain(fields, method)?;
+        let extrapolation = match fields.text("extrapolation")? {
+            Some(text) => {
+                Extrapolation::parse(text).map_err(|e| fields.error("extrapolation", e))?
+            }
+            None if illuminant.is_some() => Extrapolation::Hold,
+            None => Extrapolation::Zero,
+        };
+        Ok(Self {
+            interpolation: read_interpolation(fields, method)?,
+            extrapolation,
+            observer: match fields.text("observer")? {
+                Some(text) => Observer::parse(text).map_err(|e| fields.error("observer", e))?,
+                None => Observer::default(),
+            },
+            exposure: fields.number("rgb_exposure")?.unwrap_or(1.0),
+            filters: read_filters(fields)?,
+            rgb: read_wanted(fields, illuminant.is_some())?,
+            spectra,
+            illuminant,
+            method,
+        })
+    }
+}
+
+/// The illuminants that come with a request, by name.
+pub(super) fn read_illuminants(
+    request: Fields<'_>,
+) -> Result<BTreeMap<String, Illuminant>, CaseError> {
+    let Some(value) = request.get("illuminants") else { return Ok(BTreeMap::new()) };
+    let Some(table) = value.as_object() else {
+        return Err(request.error("illuminants", "expected an object of illuminants by name"));
+    };
+    table
+        .iter()
+        .map(|(name, value)| {
+            let path = format!("illuminants.{name}");
+            let fields = Fields::new(request.case(), &path, value)?;
+            Ok((name.clone(), read_light(name, fields)?))
+        })
+        .collect()
+}
+
+/// A light as {wavelengths, values, interpolation, extrapolation} or {start_nm, end_nm, step_nm,
+/// values}.
+fn read_light(name: &str, fields: Fields<'_>) -> Result<Illuminant, CaseError> {
+    let values = fields.required_numbers("values")?;
+    let grid = if fields.has("wavelengths") {
+        let wavelengths = fields.required_numbers("wavelengths")?;
+        Grid::new(&wavelengths).map_err(|e| fields.error("wavelengths", e))?
+    } else {
+        let start = fields.required_number("start_nm")?;
+        let step = fields.required_number("step_nm")?;
+        let nm: Vec<f64> = (0..values.len()).map(|i| start + step * i as f64).collect();
+        let grid = Grid::new(&nm).map_err(|e| fields.error("start_nm", e))?;
+        let end = fields.number("end_nm")?.unwrap_or(nm[nm.len() - 1]);
+        if (end - nm[nm.len() - 1]).abs() > 1e-6 * step.abs() {
+            let found =
+                format!("{} values from {start} nm by {step} nm do not end there", nm.len());
+            return Err(fields.error("end_nm", found));
+        }
+        grid
+    };
+    let interpolation = match fields.text("interpolation")? {
+        Some(text) => Interpolation::parse(text).map_err(|e| fields.error("interpolation", e))?,
+        None => Interpolation::Linear,
+    };
+    let outside = match fields.text("extrapolation")? {
+        Some(text) => Extrapolation::parse(text).map_err(|e| fields.error("extrapolation", e))?,
+        None => Extrapolation::Zero,
+    };
+    Illuminant::interpolated(name, &grid, &values, interpolation, outside)
+        .map_err(|e| fields.error("values", e))
+}
+
+fn read_spectra(fields: Fields<'_>) -> Result<Spectra, CaseError> {
+    let wavelengths = fields.required_numbers("wavelengths")?;
+    Grid::new(&wavelengths).map_err(|e| fields.error("wavelengths", e))?;
+    let factor = fields.number("value_factor")?.unwrap_or(1.0);
+    let spectrum = |name: &str, value: &Value| {
+        let values = fields.as_numbers(name, value)?.iter().map(|v| v * factor).collect::<Vec<_>>();
+        Spectrum::new(&wavelengths, &values).map_err(|e| fields.error(name, e))
+    };
+    match (fields.get("values"), fields.list("stokes")?) {
+        (Some(_), Some(_)) => Err(fields.error("stokes", "given together with values")),
+        (Some(values), None) => Ok(Spectra::Values(spectrum("values", values)?)),
+        (None, Some([i, q, u, v])) => Ok(Spectra::Stokes(Box::new([
+            spectrum("stokes[0]", i)?,
+            spectrum("stokes[1]", q)?,
+            spectrum("stokes[2]", u)?,
+            spectrum("stokes[3]", v)?,
+        ]))),
+        (None, Some(other)) => {
+            let found = format!("expected four lists (I, Q, U, V), got {}", other.len());
+            Err(fields.error("stokes", found))
+        }
+        (None, None) => Err(fields.error("values", "missing")),
+    }
+}
+
+fn read_illuminant(
+    fields: Fields<'_>,
+    illuminants: &BTreeMap<String, Illuminant>,
+) -> Result<Option<Illuminant>, CaseError> {
+    let custom = || -> Result<_, CaseError> {
+        let path = fields.path_to("custom_illuminant");
+        let light = Fields::new(fields.case(), &path, fields.required("custom_illuminant")?)?;
+        read_light("custom", light)
+    };
+    match fields.get("illuminant") {
+        None if fields.get("custom_illuminant").is_some() => custom().map(Some),
+        None if fields.has("illuminant") => Ok(None),
+        None => Err(fields.error("illuminant", "missing (null for emission)")),
+        Some(Value::Number(kelvin)) => Illuminant::planck(kelvin.as_f64().unwrap_or(f64::NAN))
+            .map(Some)
+            .map_err(|e| fields.error("illuminant", e)),
+        Some(_) => match fields.text("illuminant")?.unwrap_or_default() {
+            "custom" => custom().map(Some),
+            name => match illuminants.get(name) {
+                Some(light) => Ok(Some(light.clone())),
+                None => {
+                    Illuminant::parse(name).map(Some).map_err(|e| fields.error("illuminant", e))
+                }
+            },
+        },
+    }
+}
+
+fn read_method(fields: Fields<'_>, lit: bool, spectra: &Spectra) -> Result<Method, CaseError> {
+    let method = match fields.text("method")? {
+        Some(text) => {
+            Named::find("method", text, &METHODS).map_err(|e| fields.error("method", e))?
+        }
+        None if lit => Method::Sum,
+        None => Method::Absolute,
+    };
+    let problem = match method {
+        Method::Sum | Method::Astm if !lit => "needs an illuminant",
+        Method::Absolute | Method::Relative if lit => "is for emission, where illuminant is null",
+        Method::Astm if matches!(spectra, Spectra::Stokes(_)) => "takes values, not stokes",
+        Method::Astm if fields.get("filters").is_some() => "takes no filters",
+        _ => return Ok(method),
+    };
+    Err(fields.error("method", format!("{} {problem}", Named::name_of(&METHODS, method))))
+}
+
+/// The domain of a method is fixed; a request that states another one expects something else.
+fn check_domain(fields: Fields<'_>, method: Method) -> Result<(), CaseError> {
+    let fixed = if method == Method::Astm { [360.0, 780.0, 1.0] } else { [360.0, 830.0, 1.0] };
+    match fields.get("domain_nm") {
+        Some(value) if fields.as_numbers("domain_nm", value)? != fixed => {
+            Err(fields.error("domain_nm", format!("only {fixed:?} is computed")))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn read_interpolation(
+    fields: Fields<'_>,
+    method: Method,
+) -> Result<Option<Interpolation>, CaseError> {
+    match (fields.text("interpolation")?, method) {
+        (Some("e308") | None, _) if method == Method::Astm => Ok(None),
+        (Some(text), _) => match Interpolation::parse(text) {
+            Ok(interpolation) => Ok(Some(interpolation)),
+            Err(unknown) => Err(fields.error("interpolation", unknown)),
+        },
+        (None, _) => Ok(None),
+    }
+}
+
+fn read_filters(fields: Fields<'_>) -> Result<Vec<Filter>, CaseError> {
+    let filters = fields.list("filters")?.unwrap_or_default();
+    filters
+        .iter()
+        .enumerate()
+        .map(|(i, value)| {
+            let path = fields.path_to(&format!("filters[{i}]"));
+            if let Some(text) = value.as_str() {
+                return Filter::parse(text).map_err(|e| CaseError::new(fields.case(), &path, e));
+            }
+            read_filter(Fields::new(fields.case(), &path, value)?)
+        })
+        .collect()
+}
+
+fn read_filter(fields: Fields<'_>) -> Result<Filter, CaseError> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Kind {
+        Linear,
+        Retarder,
+        Circular,
+    }
+    const KINDS: [Named<Kind>; 3] = [
+        Named("linear_polariser", Kind::Linear),
+        Named("linear_retarder", Kind::Retarder),
+        Named("circular_analyser", Kind::Circular),
+    ];
+    fields.refuse_misspelt(&[
+        "type",
+        "angle_deg",
+        "k1",
+        "k2",
+        "fast_axis_deg",
+        "retardance_nm",
+        "handedness",
+    ])?;
+    let text = fields.text("type")?.ok_or_else(|| fields.error("type", "missing"))?;
+    match Named::find("filter", text, &KINDS).map_err(|e| fields.error("type", e))? {
+        Kind::Linear => {
+            let angle = fields.required_number("angle_deg")?.to_radians();
+            let k1 = fields.number("k1")?.unwrap_or(1.0);
+            Filter::linear(angle, k1, fields.number("k2")?.unwrap_or(0.0))
+        }
+        Kind::Retarder => Filter::retarder(
+            fields.required_number("fast_axis_deg")?.to_radians(),
+            fields.required_number("retardance_nm")?,
+        ),
+        Kind::Circular => Filter::circular(fields.required_number("handedness")?),
+    }
+    .map_err(|e| fields.error("type", e))
+}
+
+/// The wanted spaces and adaptations: `rgb`, else `expected.rgb`, else all.
+fn read_wanted(fields: Fields<'_>, lit: bool) -> Result<Vec<(RgbSpace, Adaptation)>, CaseError> {
+    if let Some(list) = fields.list("rgb")? {
+        return read_pairs(fields, "rgb", list);
+    }
+    if let Some(expected) = fields.get("expected") {
+        let path = fields.path_to("expected");
+        let expected = Fields::new(fields.case(), &path, expected)?;
+        if let Some(list) = expected.list("rgb")? {
+            return read_pairs(expected, "rgb", list);
+        }
+    }
+    // Emission has no white to adapt from.
+    let adaptations: &[Adaptation] = if lit {
+        &[Adaptation::None, Adaptation::Bradford, Adaptation::Cat02, Adaptation::Cat16]
+    } else {
+        &[Adaptation::None]
+    };
+    let spaces = RgbSpace::names().filter_map(|name| RgbSpace::named(name).ok());
+    Ok(spaces.flat_map(|space| adaptations.iter().map(move |a| (space.clone(), *a))).collect())
+}
+
+fn read_pairs(
+    fields: Fields<'_>,
+    name: &str,
+    list: &[Value],
+) -> Result<Vec<(RgbSpace, Adaptation)>, CaseError> {
+    list.iter()
+        .enumerate()
+        .map(|(i, value)| {
+            let path = fields.path_to(&format!("{name}[{i}]"));
+            let pair = Fields::new(fields.case(), &path, value)?;
+            let space = pair.text("space")?.ok_or_else(|| pair.error("space", "missing"))?;
+            let adaptation = match pair.text("adaptation")? {
+                Some(text) => Adaptation::parse(text).map_err(|e| pair.error("adaptation", e))?,
+                None => Adaptation::None,
+            };
+            Ok((RgbSpace::parse(space).map_err(|e| pair.error("space", e))?, adaptation))
+        })
+        .collect()
+}

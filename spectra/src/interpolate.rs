@@ -1,0 +1,239 @@
+//! Bringing a spectrum to the 1 nm grid.
+//!
+//! CIE 167:2005 recommends Sprague's formula for equal steps and a cubic spline otherwise. No
+//! result is clipped: the overshoot belongs to the error, and Stokes values are signed.
+
+mod cubic;
+mod linear;
+mod sprague;
+
+use crate::{
+    name::{Named, UnknownName},
+    wavelength::{Fine, Grid, GridError, fine_wavelengths},
+};
+
+/// How a spectrum is interpolated between its samples.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Interpolation {
+    /// Not at all: the samples are 1 nm apart on whole nanometres.
+    None,
+    /// Sprague's fifth-degree formula; equal steps, at least six samples.
+    Sprague,
+    /// Cubic spline, not-a-knot; at least four samples.
+    Cubic,
+    /// Straight lines.
+    Linear,
+}
+
+impl Interpolation {
+    const NAMES: [Named<Self>; 4] = [
+        Named("none", Self::None),
+        Named("sprague", Self::Sprague),
+        Named("cubic", Self::Cubic),
+        Named("linear", Self::Linear),
+    ];
+
+    /// The interpolation for reflectances on `grid`, chosen by its steps and its size.
+    pub fn for_grid(grid: &Grid) -> Self {
+        if grid.is_one_nanometre() {
+            Self::None
+        } else if grid.len() >= 6 && grid.step_nm().is_some() {
+            Self::Sprague
+        } else if grid.len() >= 4 {
+            Self::Cubic
+        } else {
+            Self::Linear
+        }
+    }
+
+    /// The interpolation called `none`, `sprague`, `cubic` or `linear`.
+    ///
+    /// # Errors
+    ///
+    /// If it is none of these.
+    pub fn parse(text: &str) -> Result<Self, UnknownName> {
+        Named::find("interpolation", text, &Self::NAMES)
+    }
+
+    /// The name that [`parse`](Self::parse) reads.
+    pub fn name(self) -> &'static str {
+        Named::name_of(&Self::NAMES, self)
+    }
+
+    /// Whether this interpolation is possible on `grid`.
+    ///
+    /// # Errors
+    ///
+    /// If the grid has too few samples or the wrong steps.
+    pub fn check(self, grid: &Grid) -> Result<(), GridError> {
+        let needed = match self {
+            Self::None | Self::Linear => 2,
+            Self::Cubic => 4,
+            Self::Sprague => 6,
+        };
+        if grid.len() < needed {
+            Err(GridError::TooFew { got: grid.len(), needed })
+        } else if self == Self::Sprague && grid.step_nm().is_none() {
+            Err(GridError::NotUniform)
+        } else if self == Self::None && !grid.is_one_nanometre() {
+            Err(GridError::NotOneNanometre)
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// What a spectrum is outside its samples.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Extrapolation {
+    /// The value of the nearest sample (reflectances).
+    Hold,
+    /// Zero (emission).
+    Zero,
+}
+
+impl Extrapolation {
+    const NAMES: [Named<Self>; 2] = [Named("hold", Self::Hold), Named("zero", Self::Zero)];
+
+    /// The extrapolation called `hold` or `zero`.
+    ///
+    /// # Errors
+    ///
+    /// If it is neither.
+    pub fn parse(text: &str) -> Result<Self, UnknownName> {
+        Named::find("extrapolation", text, &Self::NAMES)
+    }
+
+    /// The name that [`parse`](Self::parse) reads.
+    pub fn name(self) -> &'static str {
+        Named::name_of(&Self::NAMES, self)
+    }
+}
+
+/// A grid with a way to interpolate on it that is known to be possible.
+#[derive(Clone, Debug)]
+pub(crate) struct Resampler<'a> {
+    grid: &'a Grid,
+    interpolation: Interpolation,
+    outside: Extrapolation,
+}
+
+impl<'a> Resampler<'a> {
+    /// Fails if the interpolation is not possible on the grid.
+    pub(crate) fn new(
+        grid: &'a Grid,
+        interpolation: Interpolation,
+        outside: Extrapolation,
+    ) -> Result<Self, GridError> {
+        interpolation.check(grid)?;
+        Ok(Self { grid, interpolation, outside })
+    }
+
+    /// The interpolation that the grid itself suggests, which is always possible.
+    pub(crate) fn for_grid(grid: &'a Grid, outside: Extrapolation) -> Self {
+        Self { grid, interpolation: Interpolation::for_grid(grid), outside }
+    }
+
+    /// Values in ascending order of wavelength, brought to the 1 nm grid.
+    pub(crate) fn fine(&self, sorted: &[f64]) -> Box<Fine> {
+        let nm = self.grid.nm();
+        let (first, last) = (nm[0], nm[nm.len() - 1]);
+        let at: Vec<f64> = fine_wavelengths().map(|at| at.clamp(first, last)).collect();
+        let mut fine = self.evaluate(sorted, &at);
+        if self.outside == Extrapolation::Zero {
+            for (value, at) in fine.iter_mut().zip(fine_wavelengths()) {
+                if at < first || at > last {
+                    *value = 0.0;
+                }
+            }
+        }
+        fine
+    }
+
+    fn evaluate(&self, sorted: &[f64], at: &[f64]) -> Box<Fine> {
+        let nm = self.grid.nm();
+        let mut fine = Box::new([0.0; crate::wavelength::FINE_COUNT]);
+        match self.interpolation {
+            // Every wavelength asked for is a sample; a straight line through it is exact.
+            Interpolation::None | Interpolation::Linear => {
+                linear::interpolate(nm, sorted, at, &mut fine[..]);
+            }
+            Interpolation::Sprague => sprague::interpolate(nm, sorted, at, &mut fine[..]),
+            Interpolation::Cubic => cubic::interpolate(nm, sorted, at, &mut fine[..]),
+        }
+        fine
+    }
+
+    /// The columns of the interpolation matrix: what each sample alone contributes to the grid.
+    ///
+    /// In ascending order of wavelength.
+    pub(crate) fn columns(&self) -> impl Iterator<Item = Box<Fine>> {
+        let mut unit = vec![0.0; self.grid.len()];
+        (0..self.grid.len()).map(move |k| {
+            unit[k] = 1.0;
+            let column = self.fine(&unit);
+            unit[k] = 0.0;
+            column
+        })
+    }
+}
+
+/// The interval that holds `at`: its lower index, and where in it, from 0 to 1.
+///
+/// `nm` ascends, has at least two elements, and `at` lies within them.
+fn locate(nm: &[f64], at: f64) -> (usize, f64) {
+    let below = nm.partition_point(|&sample| sample <= at);
+    let i = below.saturating_sub(1).min(nm.len() - 2);
+    (i, (at - nm[i]) / (nm[i + 1] - nm[i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_grid_chooses_the_interpolation() {
+        let chosen = |nm: &[f64]| Interpolation::for_grid(&Grid::new(nm).unwrap());
+        assert_eq!(chosen(&[400.0, 401.0, 402.0]), Interpolation::None);
+        assert_eq!(chosen(&[400.0, 410.0, 420.0, 430.0, 440.0, 450.0]), Interpolation::Sprague);
+        assert_eq!(chosen(&[400.0, 410.0, 420.0, 430.0, 440.0]), Interpolation::Cubic);
+        assert_eq!(chosen(&[400.0, 411.0, 420.0, 430.0, 440.0, 450.0]), Interpolation::Cubic);
+        assert_eq!(chosen(&[400.0, 411.0, 420.0]), Interpolation::Linear);
+    }
+
+    #[test]
+    fn every_interpolation_passes_through_its_samples() {
+        let nm: Vec<f64> = (0..12).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
+        let values: Vec<f64> = nm.iter().map(|nm| (nm / 20.0).sin()).collect();
+        let grid = Grid::new(&nm).unwrap();
+        for interpolation in [Interpolation::Sprague, Interpolation::Cubic, Interpolation::Linear] {
+            let resampler = Resampler::new(&grid, interpolation, Extrapolation::Hold).unwrap();
+            let fine = resampler.fine(&values);
+            for (i, value) in values.iter().enumerate() {
+                // The last sample is the end of an interval: a sum that rounds.
+                assert!((fine[40 + 10 * i] - value).abs() < 1e-14, "{interpolation:?} {i}");
+            }
+        }
+    }
+
+    #[test]
+    fn outside_is_held_or_zero() {
+        let grid = Grid::new(&[500.0, 600.0]).unwrap();
+        let held = Resampler::for_grid(&grid, Extrapolation::Hold).fine(&[1.0, 2.0]);
+        assert_eq!((held[0], held[190], held[470]), (1.0, 1.5, 2.0));
+        let zero = Resampler::for_grid(&grid, Extrapolation::Zero).fine(&[1.0, 2.0]);
+        assert_eq!((zero[139], zero[140], zero[240], zero[241]), (0.0, 1.0, 2.0, 0.0));
+    }
+
+    #[test]
+    fn refuses_an_impossible_interpolation() {
+        let grid = Grid::new(&[400.0, 410.0, 425.0, 430.0, 440.0, 450.0]).unwrap();
+        assert_eq!(Interpolation::Sprague.check(&grid), Err(GridError::NotUniform));
+        assert_eq!(Interpolation::None.check(&grid), Err(GridError::NotOneNanometre));
+        let short = Grid::new(&[400.0, 410.0, 420.0]).unwrap();
+        assert_eq!(
+            Interpolation::Cubic.check(&short),
+            Err(GridError::TooFew { got: 3, needed: 4 })
+        );
+    }
+}
