@@ -22,6 +22,7 @@ fn tables() -> tempfile::TempDir {
 
 /// Output of a command that must succeed; `None`, with the reason on stderr, where the tool is
 /// not installed. In continuous integration (`CI` is set) it must be.
+#[expect(clippy::print_stderr, reason = "a test that could not be made says so")]
 fn run(tool: &str, args: &[&str], dir: &Path) -> Option<String> {
     match Command::new(tool).args(args).current_dir(dir).output() {
         Ok(output) => {
