@@ -1,0 +1,26 @@
+//! The same density 1 for every slope: the bare geometry of a facet model, not normalized.
+
+use super::SlopeDistribution;
+use crate::spec::{Class, Laws, Spec};
+
+/// How programs name and build it.
+pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
+    class: Class {
+        name: "Unit_Slope_Distribution_Function",
+        parent: "Slope_Distribution_Function",
+        summary: "Density 1 everywhere, not normalized",
+        equation: "S = 1",
+        source: "torrance-1967",
+        params: &[],
+        laws: Laws::NONE,
+    },
+    build: |_| Ok(Box::new(Unit)),
+};
+
+struct Unit;
+
+impl SlopeDistribution for Unit {
+    fn density(&self, _: f64, _: f64) -> f64 {
+        1.0
+    }
+}
