@@ -58,6 +58,8 @@ pub enum Defect {
     SlopeConstants,
     /// The cleanliness distribution uses constants of six digits.
     CleanlinessDigits,
+    /// Mie's recurrence starts too low for large spheres.
+    MieStart,
 }
 
 impl Defect {
@@ -103,6 +105,9 @@ impl Defect {
             Self::SlopeConstants => ("-", "constants of slope distributions have twelve digits"),
             Self::CleanlinessDigits => {
                 ("-", "constants of the cleanliness distribution have six digits")
+            }
+            Self::MieStart => {
+                ("-", "amplitudes of spheres much larger than the wavelength are off by 1e-5")
             }
         }
     }

@@ -1,0 +1,104 @@
+//! Coated sphere: a core of radius r − t in a shell of thickness t.
+//!
+//! The coefficients of [`layered`] with two layers.
+//!
+//! A. L. Aden and M. Kerker, J. Appl. Phys. 22, 1242 (1951); C. F. Bohren and D. R. Huffman,
+//! *Absorption and Scattering of Light by Small Particles* (Wiley, 1983), 8.1.
+
+use super::{FREE_SPACE, SPHERE, Scatterer, Surroundings, mie::Mie, positive, series};
+use crate::{
+    Node,
+    spec::{Class, Laws, Param, ParamError, Spec},
+};
+
+/// How programs name, parameterize and build a coated sphere.
+pub const SPEC: Spec<dyn Scatterer> = Spec {
+    class: Class {
+        name: "CoatedMieScatterer",
+        parent: "SphericalScatterer",
+        summary: "Sphere with a coat",
+        equation: "Mie series with the coefficients of two layers",
+        source: "aden-kerker-1951 bohren-huffman-1983",
+        params: &[
+            FREE_SPACE,
+            SPHERE,
+            &[
+                Param::index("coating", "(1,0)", "Index of the coat"),
+                Param::number("thickness", "0", "um", "Thickness of the coat, inside the radius"),
+                Param::integer(
+                    "nmax",
+                    "0",
+                    "Terms of the series: 0 as many as needed, -n that many less, n exactly n",
+                ),
+            ],
+        ],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let around = Surroundings::read(node)?;
+        let radius = positive(node, "radius")?;
+        let thickness = node.number("thickness");
+        if !(0.0..=radius).contains(&thickness) {
+            let problem = format!("{thickness} um is not from 0 to the radius {radius} um");
+            return Err(ParamError::new("thickness", problem));
+        }
+        let k = around.wave_number();
+        let core = (around.relative_index(node, "sphere")?, k * (radius - thickness));
+        let coat = (around.relative_index(node, "coating")?, k * radius);
+        let terms = terms(node, series::terms(k * radius))?;
+        Ok(Box::new(Mie::layered(around, &[core, coat], terms)))
+    },
+};
+
+/// The number of terms that `nmax` asks for where the size needs `needed`.
+fn terms(node: &Node, needed: usize) -> Result<usize, ParamError> {
+    /// Larger spheres than any that a series of this length describes are not built.
+    const MOST: i64 = 1_000_000;
+    let nmax = i64::from(node.integer("nmax"));
+    let terms = if nmax > 0 { nmax } else { needed as i64 + nmax };
+    if (1..=MOST).contains(&terms) {
+        return Ok(terms as usize);
+    }
+    Err(ParamError::new("nmax", format!("{nmax} leaves {terms} of {needed} terms")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        Mode, Value,
+        optics::Index,
+        spec::{self, ParamError},
+    };
+
+    fn build(thickness: f64, nmax: i32) -> Result<Box<dyn Scatterer>, ParamError> {
+        let index = |n, k| Value::Index(Index::constant(n, k));
+        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
+            .with("radius", Value::Number(0.3))?
+            .with("sphere", index(1.7, 0.02))?
+            .with("coating", index(1.4, 0.3))?
+            .with("thickness", Value::Number(thickness))?
+            .with("nmax", Value::Integer(nmax))?;
+        spec::build::<dyn Scatterer>(&node)
+    }
+
+    #[test]
+    fn a_coat_of_the_whole_radius_is_a_sphere_of_its_material() {
+        let around = Surroundings { lambda: 0.532, medium: 1.0.into() };
+        let node = Node::with_defaults(&SPEC.class, Mode::Sound);
+        let expected = Mie::homogeneous(&node, around, num_complex::Complex64::new(1.4, 0.3), 0.3);
+        let got = build(0.3, 0).unwrap().round().unwrap().cross_sections().unwrap();
+        let expected = expected.series().cross_sections(around.wave_number());
+        assert!((got.extinction / expected.extinction - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn more_terms_than_needed_change_nothing_and_no_terms_are_refused() {
+        let at = |nmax| build(0.1, nmax).unwrap().round().unwrap().cross_sections().unwrap();
+        // The terms left out are below those of the rule for their number.
+        assert!((at(40).extinction / at(0).extinction - 1.0).abs() < 1e-9);
+        assert!((at(-8).extinction / at(0).extinction - 1.0).abs() > 1e-9);
+        assert_eq!(build(0.1, -1000).err().unwrap().parameter, "nmax");
+        assert_eq!(build(0.31, 0).err().unwrap().parameter, "thickness");
+    }
+}

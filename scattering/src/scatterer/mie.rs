@@ -1,0 +1,196 @@
+//! Homogeneous sphere of any size.
+//!
+//! The coefficients a_n, b_n of [`layered`] with one layer in the series of [`series`]; the
+//! number of terms is x + 4x^{1/3} + 2, x = 2πnr/λ in the medium. `--compat` starts the recurrence
+//! of ψ'/ψ at max(x + 4x^{1/3} + 2, |mx|) + 15, which is too low for large spheres: at x = 57 the
+//! amplitudes are off by 10⁻⁵.
+//!
+//! G. Mie, Ann. Phys. 330, 377 (1908); C. F. Bohren and D. R. Huffman, *Absorption and Scattering
+//! of Light by Small Particles* (Wiley, 1983), chapter 4.
+
+use num_complex::Complex64;
+
+use super::{
+    CrossSections, FREE_SPACE, Round, SPHERE, Scatterer, Surroundings, layered, positive,
+    series::{self, Series},
+};
+use crate::{
+    Defect, Jones, Node,
+    spec::{Class, Laws, Spec},
+    special::riccati,
+};
+
+/// How programs name, parameterize and build a homogeneous sphere.
+pub const SPEC: Spec<dyn Scatterer> = Spec {
+    class: Class {
+        name: "MieScatterer",
+        parent: "SphericalScatterer",
+        summary: "Homogeneous sphere of any size",
+        equation: "S1 = sum (2n+1)/(n(n+1)) (a_n pi_n + b_n tau_n), S2 with a, b exchanged",
+        source: "mie-1908 bohren-huffman-1983",
+        params: &[FREE_SPACE, SPHERE],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let around = Surroundings::read(node)?;
+        let radius = positive(node, "radius")?;
+        let m = around.relative_index(node, "sphere")?;
+        Ok(Box::new(Mie::homogeneous(node, around, m, radius)))
+    },
+};
+
+/// A sphere given by its Mie coefficients.
+#[derive(Clone, Debug)]
+pub struct Mie {
+    around: Surroundings,
+    series: Series,
+}
+
+impl Mie {
+    /// A homogeneous sphere of relative index `m` and radius `radius` µm; `node` knows whether
+    /// to start its recurrence as NIST's library does.
+    pub fn homogeneous(node: &Node, around: Surroundings, m: Complex64, radius: f64) -> Self {
+        let x = around.wave_number() * radius;
+        let terms = series::terms(x);
+        let coefficients = layered::homogeneous((m, x), terms, first_order(node, m * x, x));
+        Self { around, series: Series::new(&coefficients) }
+    }
+
+    /// A sphere of layers, from the inside out, with `terms` terms.
+    pub fn layered(around: Surroundings, layers: &[layered::Layer], terms: usize) -> Self {
+        Self { around, series: Series::new(&layered::coefficients(layers, terms)) }
+    }
+
+    /// Its series.
+    pub fn series(&self) -> &Series {
+        &self.series
+    }
+}
+
+impl Round for Mie {
+    fn surroundings(&self) -> &Surroundings {
+        &self.around
+    }
+
+    fn amplitudes(&self, cos: f64) -> Jones {
+        series::matrix(self.series.amplitudes(cos))
+    }
+
+    fn cross_sections(&self) -> Option<CrossSections> {
+        Some(self.series.cross_sections(self.around.wave_number()))
+    }
+}
+
+/// The order at which the recurrence of ψ'/ψ at `z` = mx starts.
+fn first_order(node: &Node, z: Complex64, x: f64) -> usize {
+    let converged = riccati::start(series::terms(x), z);
+    let library = (x + 4.0 * x.powf(0.3333) + 2.0).max(z.norm()) + 15.0;
+    // Six widths of the turning point leave exp(−1.9·6^{3/2}) = 1e-12 of the start's error.
+    let too_low = library < z.norm() + 6.0 * z.norm().cbrt();
+    if too_low && node.reproduces(Defect::MieStart) { library as usize } else { converged }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Mode;
+    use std::f64::consts::PI;
+
+    fn sound() -> Node {
+        Node::with_defaults(&SPEC.class, Mode::Sound)
+    }
+
+    /// Efficiencies (Q_sca, Q_ext, Q_back) of a sphere of size parameter `x` in vacuum.
+    fn efficiencies(x: f64, m: Complex64) -> (f64, f64, f64) {
+        let around = Surroundings { lambda: 2.0 * PI, medium: Complex64::ONE };
+        let c = Mie::homogeneous(&sound(), around, m, x).cross_sections().unwrap();
+        let area = PI * x * x;
+        (c.scattering / area, c.extinction / area, c.back / area)
+    }
+
+    #[test]
+    fn bohren_and_huffmans_sample_run_is_reproduced() {
+        // Appendix A: radius 0.525 µm, λ 0.6328 µm, m = 1.55; printed with six digits. Their
+        // Q_back is 4|S(180°)|²/x².
+        let x = 2.0 * PI * 0.525 / 0.6328;
+        let (sca, ext, back) = efficiencies(x, Complex64::new(1.55, 0.0));
+        assert!((x - 5.213).abs() < 5e-4);
+        assert!((sca - 3.10543).abs() < 5e-6 && (ext - 3.10543).abs() < 5e-6);
+        assert!((back - 2.92534).abs() < 5e-6, "{back}");
+    }
+
+    #[test]
+    fn bohren_and_huffmans_matrix_elements_are_reproduced() {
+        // The same run: angle, S11/S11(0°), −S12/S11, S33/S11, S34/S11, six digits.
+        let rows = [
+            (0.0, 1.0, 0.0, 1.0, 0.0),
+            (9.0, 0.785390, -0.459811e-2, 0.999400, 0.343261e-1),
+            (90.0, 0.124601e-1, 0.230462, 0.937497, 0.260742),
+            (180.0, 0.383189e-1, 0.0, -1.0, 0.0),
+        ];
+        let around = Surroundings { lambda: 0.6328, medium: Complex64::ONE };
+        let sphere = Mie::homogeneous(&sound(), around, Complex64::new(1.55, 0.0), 0.525);
+        let s11 = |s: &Jones| 0.5 * (s.ss.norm_sqr() + s.pp.norm_sqr());
+        let forward = s11(&sphere.amplitudes(1.0));
+        for (angle, relative, polarization, s33, s34) in rows {
+            let s = sphere.amplitudes(f64::to_radians(angle).cos());
+            let own = s11(&s);
+            let half_difference = 0.5 * (s.pp.norm_sqr() - s.ss.norm_sqr());
+            let product = s.ss * s.pp.conj();
+            assert!((own / forward - relative).abs() < 6e-7, "{angle}");
+            assert!((half_difference / own - polarization).abs() < 6e-7, "{angle}");
+            assert!((product.re / own - s33).abs() < 6e-7, "{angle}");
+            assert!((product.im / own - s34).abs() < 6e-7, "{angle}");
+        }
+    }
+
+    #[test]
+    fn wiscombes_cases_are_reproduced() {
+        // W. J. Wiscombe, NCAR/TN-140+STR (1979): (m, x, Q_ext, Q_sca), seven digits.
+        let cases = [
+            ((0.75, 0.0), 0.099, 7.417859e-6, 7.417859e-6),
+            ((0.75, 0.0), 10.0, 2.232265, 2.232265),
+            ((0.75, 0.0), 1000.0, 1.997908, 1.997908),
+            ((1.5, 0.0), 10.0, 2.881999, 2.881999),
+            ((1.5, 0.0), 100.0, 2.094388, 2.094388),
+            ((1.5, 0.0), 1000.0, 2.013945, 2.013945),
+            ((1.33, 1e-5), 1.0, 0.09395198, 0.09392330),
+            ((1.33, 1e-5), 100.0, 2.101321, 2.096594),
+            ((1.33, 1e-5), 10000.0, 2.004089, 1.723857),
+            ((1.5, 1.0), 0.055, 0.1014910, 1.131687e-5),
+            ((1.5, 1.0), 1.0, 2.336321, 0.6634538),
+            ((1.5, 1.0), 100.0, 2.097502, 1.283697),
+            ((1.5, 1.0), 10000.0, 2.004368, 1.236574),
+            ((10.0, 10.0), 1.0, 2.532993, 2.049405),
+            ((10.0, 10.0), 100.0, 2.071124, 1.836785),
+            ((10.0, 10.0), 10000.0, 2.005914, 1.795393),
+        ];
+        for ((n, k), x, extinction, scattering) in cases {
+            let (sca, ext, _) = efficiencies(x, Complex64::new(n, k));
+            assert!((ext / extinction - 1.0).abs() < 5e-7, "{n} {k} {x}: {ext}");
+            assert!((sca / scattering - 1.0).abs() < 5e-7, "{n} {k} {x}: {sca}");
+        }
+    }
+
+    #[test]
+    fn large_opaque_spheres_take_twice_their_shadow() {
+        let (_, ext, _) = efficiencies(2e4, Complex64::new(1.5, 0.5));
+        // Q_ext − 2 falls as x^{−2/3}, times a factor near 2.
+        assert!((ext - 2.0).abs() < 4.0 * 2e4f64.powf(-2.0 / 3.0));
+    }
+
+    #[test]
+    fn the_low_start_of_the_recurrence_shows_in_large_spheres_of_compat_only() {
+        let at = |mode, radius| {
+            let node = Node::with_defaults(&SPEC.class, mode);
+            let around = Surroundings { lambda: 0.55, medium: Complex64::ONE };
+            let sphere = Mie::homogeneous(&node, around, Complex64::new(1.33, 0.0), radius);
+            (sphere.amplitudes(0.4536).ss, !node.met.lock().unwrap().is_empty())
+        };
+        let ((compat, _), (sound, met)) = (at(Mode::Compat, 5.0), at(Mode::Sound, 5.0));
+        let relative = (compat - sound).norm() / sound.norm();
+        assert!(met && relative > 1e-6 && relative < 1e-4, "{relative}");
+        let ((compat, _), (sound, met)) = (at(Mode::Compat, 0.3), at(Mode::Sound, 0.3));
+        assert!(!met && compat == sound);
+    }
+}

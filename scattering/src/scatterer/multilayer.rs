@@ -1,0 +1,92 @@
+//! Sphere with any number of coats.
+//!
+//! The coefficients of [`layered`]. The films of `stack` lie within the radius, the first one on
+//! the core.
+//!
+//! W. Yang, Appl. Opt. 42, 1710 (2003).
+
+use super::{
+    FREE_SPACE, SPHERE, Scatterer, Surroundings, layered::Layer, mie::Mie, positive, series,
+};
+use crate::{
+    spec::{Class, Family, Laws, Param, ParamError, Spec},
+    stack::Stack,
+};
+
+/// How programs name, parameterize and build a sphere with coats.
+pub const SPEC: Spec<dyn Scatterer> = Spec {
+    class: Class {
+        name: "MultilayerCoatedMieScatterer",
+        parent: "SphericalScatterer",
+        summary: "Sphere with any number of coats",
+        equation: "Mie series with the coefficients of many layers",
+        source: "yang-2003",
+        params: &[
+            FREE_SPACE,
+            SPHERE,
+            &[Param::member(
+                "stack",
+                Family::Stack,
+                "StackModel",
+                "No_StackModel",
+                "Coats, the innermost first",
+            )],
+        ],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let around = Surroundings::read(node)?;
+        let radius = positive(node, "radius")?;
+        let coats = node.member::<Stack>("stack")?.at(around.lambda);
+        let total: f64 = coats.iter().map(|coat| coat.1).sum();
+        if !(0.0..=radius).contains(&total) {
+            let problem = format!("coats of {total} um do not fit in the radius {radius} um");
+            return Err(ParamError::new("stack", problem));
+        }
+        let k = around.wave_number();
+        let mut r = radius - total;
+        let mut layers: Vec<Layer> = vec![(around.relative_index(node, "sphere")?, k * r)];
+        for (index, thickness) in coats {
+            r += thickness;
+            layers.push((around.relative(index, "stack")?, k * r));
+        }
+        Ok(Box::new(Mie::layered(around, &layers, series::terms(k * radius))))
+    },
+};
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{Mode, Node, Value, optics::Index, spec};
+
+    fn coated(thickness: f64) -> Result<Box<dyn Scatterer>, ParamError> {
+        let film =
+            Node::with_defaults(spec::find_class("SingleFilm_StackModel").unwrap(), Mode::Sound)
+                .with("material", Value::Index(Index::constant(1.4, 0.3)))?
+                .with("thickness", Value::Number(thickness))?;
+        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
+            .with("radius", Value::Number(0.3))?
+            .with("stack", Value::Member(Arc::new(film)))?;
+        spec::build::<dyn Scatterer>(&node)
+    }
+
+    #[test]
+    fn one_coat_is_the_coated_sphere() {
+        let node = Node::with_defaults(&super::super::coated::SPEC.class, Mode::Sound)
+            .with("radius", Value::Number(0.3))
+            .and_then(|n| n.with("coating", Value::Index(Index::constant(1.4, 0.3))))
+            .and_then(|n| n.with("thickness", Value::Number(0.1)))
+            .unwrap();
+        let expected = spec::build::<dyn Scatterer>(&node).unwrap();
+        let (a, b) = (coated(0.1).unwrap(), expected);
+        let (a, b) = (a.round().unwrap().amplitudes(0.3), b.round().unwrap().amplitudes(0.3));
+        assert!((a.ss - b.ss).norm() < 1e-14 * b.ss.norm());
+    }
+
+    #[test]
+    fn coats_thicker_than_the_radius_are_refused() {
+        assert_eq!(coated(0.31).err().unwrap().parameter, "stack");
+    }
+}
