@@ -16,7 +16,7 @@
 //! | `method` | `sum_1nm`, `absolute_683`, `relative_Y1`, `astm_e308` | `sum_1nm`, `absolute_683` |
 //! | `rgb_exposure` | factor on XYZ before the RGB matrix | 1 |
 //! | `filters` | `linear_polariser`, `linear_retarder`, `circular_analyser`, or text | none |
-//! | `rgb` (or `expected.rgb`) | list of `space`, `adaptation` | all spaces × none, Bradford, CAT02, CAT16 |
+//! | `rgb` (or `expected.rgb`) | list of objects with `space` and `adaptation`, or of such pairs | all spaces × none, Bradford, CAT02, CAT16 |
 //!
 //! Other fields are notes and ignored, unless they look like a slip for one of these.
 

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use thiserror::Error;
 
-use crate::name::{UnknownName, call};
+use crate::name::{UnknownName, call, fold, similar};
 
 /// A Mueller matrix, row by row.
 pub type Mueller = [[f64; 4]; 4];
@@ -88,13 +88,13 @@ impl Filter {
         }
     }
 
-    /// The filter `name` with arguments that are numbers already.
+    /// The filter `name` with arguments that are numbers already, angles in radians.
     ///
     /// # Errors
     ///
     /// If there is no such filter, or the arguments do not fit.
     pub fn from_call(name: &str, arguments: &[f64]) -> Result<Self, FilterError> {
-        match (name, arguments) {
+        match (fold(name).as_str(), arguments) {
             ("linear", &[angle]) => Self::linear(angle, 1.0, 0.0),
             ("linear", &[angle, k1, k2]) => Self::linear(angle, k1, k2),
             ("retarder", &[fast_axis, nm]) => Self::retarder(fast_axis, nm),
@@ -221,7 +221,7 @@ fn unknown(text: &str) -> UnknownName {
     let forms = ["linear(angle[,k1,k2])", "retarder(fast_axis,nm)", "circular(1)"];
     let mut unknown = UnknownName::new("filter", text, forms.map(str::to_owned).into());
     let name = text.split('(').next().unwrap_or_default();
-    unknown.similar = crate::name::similar(name, ["linear", "retarder", "circular"].into_iter());
+    unknown.similar = similar(name, ["linear", "retarder", "circular"].into_iter());
     unknown
 }
 

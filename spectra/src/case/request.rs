@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::{CaseError, fields::Fields};
 use crate::{
@@ -342,13 +342,21 @@ fn read_pairs(
         .enumerate()
         .map(|(i, value)| {
             let path = fields.path_to(&format!("{name}[{i}]"));
-            let pair = Fields::new(fields.case(), &path, value)?;
-            let space = pair.text("space")?.ok_or_else(|| pair.error("space", "missing"))?;
-            let adaptation = match pair.text("adaptation")? {
-                Some(text) => Adaptation::parse(text).map_err(|e| pair.error("adaptation", e))?,
-                None => Adaptation::None,
+            // ["sRGB", "none"] is short for {"space": "sRGB", "adaptation": "none"}.
+            let long = match value.as_array().map(Vec::as_slice) {
+                Some([space, adaptation]) => json!({ "space": space, "adaptation": adaptation }),
+                _ => value.clone(),
             };
-            Ok((RgbSpace::parse(space).map_err(|e| pair.error("space", e))?, adaptation))
+            read_pair(Fields::new(fields.case(), &path, &long)?)
         })
         .collect()
+}
+
+fn read_pair(pair: Fields<'_>) -> Result<(RgbSpace, Adaptation), CaseError> {
+    let space = pair.text("space")?.ok_or_else(|| pair.error("space", "missing"))?;
+    let adaptation = match pair.text("adaptation")? {
+        Some(text) => Adaptation::parse(text).map_err(|e| pair.error("adaptation", e))?,
+        None => Adaptation::None,
+    };
+    Ok((RgbSpace::parse(space).map_err(|e| pair.error("space", e))?, adaptation))
 }
