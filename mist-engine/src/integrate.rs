@@ -1,0 +1,403 @@
+//! Model × region → Mueller integral.
+//!
+//! The integral of S·(M·Φ) cos θ over a region, with S the sensitivity turned along the
+//! aperture by the matrix R(β), is S·(∫ R(β)ᵀ M cos θ dΩ)·Φ. The matrix in the middle serves
+//! every sensitivity and every incident light.
+
+use std::ops::AddAssign;
+
+use scattering::{Basis, Direction, Incidence, Model, Mueller, Stokes};
+
+use crate::sampling::{Layout, Scale, Weight};
+use crate::sum;
+
+/// Directions that are evaluated at a time; their matrices stay in the fastest cache.
+const BATCH: usize = 128;
+
+/// The Mueller integral of `model` over `layout`, or nothing if `stop` ends it.
+///
+/// It is in the units of the BRDF times sr: dimensionless. `stop` is asked once per chunk. The
+/// bits do not depend on the number of threads.
+pub fn integrate(
+    model: &Model,
+    incidence: &Incidence,
+    basis: Basis,
+    layout: &Layout,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Option<Mueller> {
+    let flip = sign(model);
+    let total = |k| {
+        layout.with_chunk(k, |chunk| {
+            let mut total = Total::default();
+            let batches = chunk.directions.chunks(BATCH).zip(chunk.weights.chunks(BATCH));
+            for (directions, weights) in batches {
+                let mut matrices = [Mueller::ZERO; BATCH];
+                let matrices = &mut matrices[..directions.len()];
+                model.evaluate(incidence, directions, basis, matrices);
+                for (m, weight) in matrices.iter().zip(weights) {
+                    total.add(m, weight, flip);
+                }
+            }
+            total
+        })
+    };
+    let sum = sum::ordered(layout.chunks(), stop, total)?;
+    Some(match layout.scale() {
+        Scale::Fixed(factor) => sum.matrix * factor,
+        Scale::Normalized(area) => {
+            Mueller(sum.matrix.0.map(|row| row.map(|x| x / sum.weight * area)))
+        }
+    })
+}
+
+/// What a detector of the sensitivity `pol` sees of a Mueller integral under the light `inpol`.
+pub fn contract(integral: &Mueller, pol: &Stokes, inpol: &Stokes) -> f64 {
+    pol.dot(&(*integral * *inpol))
+}
+
+/// One direction of an integral and the signal in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Polar angle, radians.
+    pub theta: f64,
+    /// Azimuth, radians.
+    pub phi: f64,
+    /// S(β)·(M·Φ), 1/sr.
+    pub brdf: f64,
+}
+
+impl Sample {
+    /// x, y and z of the direction, computed from its angles.
+    pub fn xyz(&self) -> [f64; 3] {
+        Direction::new(self.theta, self.phi).k().to_array()
+    }
+}
+
+/// Hands every evaluated direction of an integral to `visit`, in the order of evaluation.
+pub fn samples(
+    model: &Model,
+    incidence: &Incidence,
+    basis: Basis,
+    layout: &Layout,
+    (pol, inpol): (&Stokes, &Stokes),
+    visit: &mut dyn FnMut(Sample),
+) {
+    let below_horizon = incidence.theta.abs() >= std::f64::consts::FRAC_PI_2;
+    if layout.is_single_direction() && below_horizon {
+        return;
+    }
+    let flip = sign(model);
+    for k in 0..layout.chunks() {
+        layout.with_chunk(k, |chunk| {
+            let mut matrices = vec![Mueller::ZERO; chunk.directions.len()];
+            model.evaluate(incidence, &chunk.directions, basis, &mut matrices);
+            for ((m, d), weight) in matrices.iter().zip(&chunk.directions).zip(&chunk.weights) {
+                let brdf = turned(pol, weight, flip).dot(&(*m * *inpol));
+                visit(Sample { theta: d.theta, phi: d.phi, brdf });
+            }
+        });
+    }
+}
+
+/// −1 for models whose light leaves downwards, where the aperture turns the other way.
+fn sign(model: &Model) -> f64 {
+    if model.common().side.to_below() { -1.0 } else { 1.0 }
+}
+
+/// The sensitivity for one direction: S(β).
+fn turned(s: &Stokes, weight: &Weight, flip: f64) -> Stokes {
+    let (c, s2b) = (weight.cos2b, flip * weight.sin2b);
+    let [i, q, u, v] = s.0;
+    Stokes([i, q * c + u * s2b, u * c - q * s2b, v])
+}
+
+/// The sums of a part of a layout.
+#[derive(Clone, Copy, Debug, Default)]
+struct Total {
+    matrix: Mueller,
+    weight: f64,
+}
+
+impl Total {
+    /// Adds R(β)ᵀ M: S(β) = R S, so rows 1 and 2 of M are turned the other way.
+    fn add(&mut self, m: &Mueller, weight: &Weight, flip: f64) {
+        let w = weight.weight;
+        let (c, s) = (w * weight.cos2b, w * flip * weight.sin2b);
+        let sum = &mut self.matrix.0;
+        for k in 0..4 {
+            sum[0][k] += w * m.0[0][k];
+            sum[1][k] += c * m.0[1][k] - s * m.0[2][k];
+            sum[2][k] += s * m.0[1][k] + c * m.0[2][k];
+            sum[3][k] += w * m.0[3][k];
+        }
+        self.weight += w;
+    }
+}
+
+impl AddAssign for Total {
+    fn add_assign(&mut self, other: Self) {
+        self.matrix += other.matrix;
+        self.weight += other.weight;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use scattering::{Mode, Node, models};
+
+    use super::*;
+    use crate::region::{Angles, Apertures, Region};
+    use crate::sampling::Sampling;
+
+    const DEGREE: f64 = PI / 180.0;
+
+    fn model(name: &str) -> Model {
+        let class = &models::find(name).unwrap().class;
+        models::build(&Node::with_defaults(class, Mode::Compat)).unwrap()
+    }
+
+    fn sampling(mode: i32, differential: f64, apertures: Apertures) -> Sampling {
+        Sampling { differential, min_samples: 24.0, mode, polygon_sides: 360, apertures, seed: 5 }
+    }
+
+    fn matrix(region: &Region, sampling: &Sampling) -> Mueller {
+        let layout = Layout::new(region, sampling).unwrap();
+        let incidence = Incidence::new(0.3, 0.0);
+        let model = model("Lambertian_BRDF_Model");
+        integrate(&model, &incidence, Basis::Psps, &layout, &|| false).unwrap()
+    }
+
+    /// The reflectance of a perfect diffuser into a region.
+    fn diffuse(region: &Region, sampling: &Sampling) -> f64 {
+        matrix(region, sampling)[(0, 0)]
+    }
+
+    fn circle(center: Angles, alpha: f64) -> Region {
+        Region::Circle { center, alpha }
+    }
+
+    fn assert_close(got: f64, want: f64, relative: f64) {
+        assert!((got - want).abs() <= relative * want.abs(), "{got} is not {want}");
+    }
+
+    #[test]
+    fn a_perfect_diffuser_sends_everything_into_the_hemisphere() {
+        for mode in 1..=6 {
+            let got = diffuse(&Region::Hemi, &sampling(mode, 0.001, Apertures::Exact));
+            assert_close(got, 1.0, 1e-14);
+        }
+        // d = 1/8: points of the orthographic grid fall exactly on the horizon.
+        let got = diffuse(&Region::Hemi, &sampling(3, 1.0 / 64.0, Apertures::Exact));
+        assert_close(got, 1.0, 1e-14);
+    }
+
+    #[test]
+    fn a_perfect_diffuser_shows_the_exact_area_of_every_region() {
+        let regions = [
+            circle((1.3, 0.4), 0.5),
+            circle((0.3, 0.4), 1.5),
+            Region::Annulus {
+                outer_center: (1.1, 0.2),
+                outer_alpha: 0.8,
+                inner_center: (1.2, -0.1),
+                inner_alpha: 0.2,
+            },
+            Region::Polygon {
+                vertices: vec![(FRAC_PI_2, 0.1), (1.2, 0.9), (0.2, 0.4)],
+                polarization_center: (1.0, 0.5),
+            },
+        ];
+        for region in regions {
+            let want = region.projected_solid_angle() / PI;
+            assert_close(diffuse(&region, &sampling(2, 0.001, Apertures::Exact)), want, 1e-13);
+            for mode in [11, 12, 13] {
+                // Without normalization the rim is cut by a grid of 4e4 points or more.
+                let raw = diffuse(&region, &sampling(mode, 2e-5, Apertures::Exact));
+                assert_close(raw, want, 4e-3);
+            }
+        }
+    }
+
+    #[test]
+    fn conformance_hemi_edge_is_reproduced() {
+        // v_shape_hemi_edge: points exactly on the horizon, some of them inside the polygon.
+        let expected = [
+            (1, 1.0),
+            (11, 1.000144518818347),
+            (2, 9.999999999999998e-01),
+            (12, 9.996919862959677e-01),
+            (3, 9.897435897435894e-01),
+            (13, 9.599032505229934e-01),
+        ];
+        for (mode, want) in expected {
+            let got = diffuse(&Region::Hemi, &sampling(mode, 0.015625, Apertures::Nist));
+            assert_close(got, want, 1e-13);
+        }
+    }
+
+    #[test]
+    fn conformance_circles_at_the_horizon_are_reproduced() {
+        let below = circle((92.0 * DEGREE, -0.1 * DEGREE), 28.6 * DEGREE);
+        let wide = circle((17.3 * DEGREE, 47.8 * DEGREE), 90.0 * DEGREE);
+        let cases = [
+            (&below, 1.56, 54.0, 1, 2.127096760676903e-02),
+            (&below, 1.56, 54.0, 11, 2.100544521450316e-02),
+            (&below, 1.56, 54.0, 2, 2.127096760676900e-02),
+            (&below, 1.56, 54.0, 12, 2.146646376425214e-02),
+            (&below, 1.56, 54.0, 3, 2.127096760676906e-02),
+            (&below, 1.56, 54.0, 13, 2.132985436135365e-02),
+            (&wide, 4.0, 30.0, 1, 9.773267774691211e-01),
+            (&wide, 4.0, 30.0, 11, 9.779698036435311e-01),
+            (&wide, 4.0, 30.0, 12, 9.795367034474965e-01),
+            (&wide, 4.0, 30.0, 13, 1.051908943125240),
+        ];
+        for (region, step, min_samples, mode, want) in cases {
+            let differential = (step * DEGREE).powi(2);
+            let sampling =
+                Sampling { min_samples, ..sampling(mode, differential, Apertures::Nist) };
+            // 4·atan(1)/180 of the program and PI/180 here agree to the last bit.
+            assert_close(diffuse(region, &sampling), want, 1e-12);
+        }
+    }
+
+    #[test]
+    fn conformance_circles_with_few_sides_are_reproduced() {
+        let region = circle((1.135, 1.236), 0.288);
+        let expected = [
+            (3, 1.502661524824315e-02, 4.150746554695992e-01),
+            (5, 2.758848902122610e-02, 7.584600089776830e-01),
+            (17, 3.144286396278125e-02, 9.754520616357081e-01),
+            (100, 3.144286396278125e-02, 9.994265207588835e-01),
+            (720, 3.144286396278125e-02, 1.000212207404320),
+        ];
+        for (polygon_sides, cone, hemisphere) in expected {
+            let sampling = Sampling {
+                min_samples: 10.0,
+                polygon_sides,
+                ..sampling(12, (4.6 * DEGREE).powi(2), Apertures::Nist)
+            };
+            assert_close(diffuse(&region, &sampling), cone, 1e-13);
+            assert_close(diffuse(&Region::Hemi, &sampling), hemisphere, 1e-13);
+        }
+    }
+
+    #[test]
+    fn conformance_degenerate_polygons_are_reproduced() {
+        let polygon = |vertices: &[Angles]| Region::Polygon {
+            vertices: vertices.to_vec(),
+            polarization_center: (0.0, 0.0),
+        };
+        let sampling = Sampling { min_samples: 10.0, ..sampling(2, 0.002, Apertures::Nist) };
+        assert!(diffuse(&polygon(&[(0.5, 0.0), (0.5, 1.535)]), &sampling).is_nan());
+        assert!(diffuse(&polygon(&[]), &sampling).is_nan());
+        let doubled = [(0.2, 0.0), (0.2, 0.0), (0.5, 0.886), (0.6, -0.5), (0.6, -0.5)];
+        assert_close(diffuse(&polygon(&doubled), &sampling), 2.204946366512104e-02, 1e-13);
+        let bow_tie = polygon(&[(0.5, 0.1), (0.5, 3.2), (0.5, 1.7), (0.5, 4.8)]);
+        assert_close(diffuse(&bow_tie, &sampling), 3.131002661836194e-03, 1e-13);
+        let sound = Sampling { apertures: Apertures::Exact, ..sampling };
+        assert!(Layout::new(&bow_tie, &sound).is_err());
+        assert_close(diffuse(&polygon(&doubled), &sound), 2.204946366512104e-02, 1e-13);
+    }
+
+    #[test]
+    fn apertures_of_no_size_and_impossible_steps_give_nan() {
+        for apertures in [Apertures::Nist, Apertures::Exact] {
+            let usual = sampling(2, 0.01, apertures);
+            assert!(diffuse(&circle((0.3, 0.0), 0.0), &usual).is_nan());
+            let no_step = Sampling { differential: 0.0, ..usual.clone() };
+            assert!(diffuse(&Region::Hemi, &no_step).is_nan());
+        }
+        let no_sides = Sampling { polygon_sides: 0, ..sampling(2, 0.01, Apertures::Nist) };
+        assert!(diffuse(&Region::Hemi, &no_sides).is_nan());
+    }
+
+    #[test]
+    fn minsamples_is_rounded_up_to_a_square() {
+        let with = |min_samples| {
+            let sampling = Sampling { min_samples, ..sampling(12, 1.0, Apertures::Exact) };
+            diffuse(&circle((0.4, 0.5), 0.3), &sampling)
+        };
+        assert_eq!(with(17.0).to_bits(), with(25.9).to_bits());
+        assert_ne!(with(17.0).to_bits(), with(26.0).to_bits());
+        let negative = Sampling { min_samples: 25.0, ..sampling(12, -1.0, Apertures::Exact) };
+        assert_eq!(with(25.0), diffuse(&circle((0.4, 0.5), 0.3), &negative));
+    }
+
+    #[test]
+    fn one_direction_is_the_brdf_times_its_cosine() {
+        let at = |theta| {
+            diffuse(
+                &Region::Differential { center: (theta, 1.0) },
+                &sampling(1, 1.0, Apertures::Exact),
+            )
+        };
+        assert_close(at(0.7), 0.7_f64.cos() / PI, 1e-15);
+        assert_close(at(-0.7), 0.7_f64.cos() / PI, 1e-15);
+        assert_eq!(at(FRAC_PI_2), 0.0);
+        assert_eq!(at(2.0), 0.0);
+    }
+
+    #[test]
+    fn one_two_and_seven_threads_give_the_same_bits() {
+        let region = circle((0.8, 0.4), 0.9);
+        for mode in [2, 5] {
+            // 3e3 points are stored, 6e5 are laid out chunk by chunk.
+            for differential in [1e-3, 4e-6] {
+                let sampling = sampling(mode, differential, Apertures::Exact);
+                let in_pool = |threads| {
+                    let pool =
+                        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                    let integral = pool.install(|| matrix(&region, &sampling));
+                    integral.to_row_major().map(f64::to_bits)
+                };
+                assert_eq!(in_pool(1), in_pool(2));
+                assert_eq!(in_pool(1), in_pool(7));
+            }
+        }
+    }
+
+    #[test]
+    fn the_integral_is_the_sum_of_its_samples() {
+        let model = model("Microroughness_BRDF_Model");
+        let incidence = Incidence::new(0.5, 0.2);
+        let (pol, inpol) = (Stokes([0.5, 0.1, -0.35, 0.2]), Stokes([1.0, 0.2, 0.3, -0.4]));
+        let region = circle((0.6, 0.4), 0.4);
+        let layout = Layout::new(&region, &sampling(12, 0.01, Apertures::Nist)).unwrap();
+        let mut sum = 0.0;
+        let per_point = 2.0 * 0.005;
+        samples(&model, &incidence, Basis::Psps, &layout, (&pol, &inpol), &mut |s| {
+            sum += s.brdf * s.theta.cos() * per_point;
+        });
+        let integral = integrate(&model, &incidence, Basis::Psps, &layout, &|| false).unwrap();
+        assert_close(contract(&integral, &pol, &inpol), sum, 1e-12);
+        assert!(sum != 0.0);
+    }
+
+    #[test]
+    fn grids_converge_faster_than_linearly_with_the_solid_angle_per_point() {
+        let model = model("Microroughness_BRDF_Model");
+        let incidence = Incidence::new(0.4, 0.0);
+        let reflectance = |differential| {
+            let sampling = sampling(2, differential, Apertures::Exact);
+            let layout = Layout::new(&circle((0.4, 0.1), 0.4), &sampling).unwrap();
+            integrate(&model, &incidence, Basis::Psps, &layout, &|| false).unwrap()[(0, 0)]
+        };
+        let finest = reflectance(3e-6);
+        let error = |differential: f64| (reflectance(differential) / finest - 1.0).abs();
+        assert!(error(1e-4) < 1e-2 * error(1e-2), "{} {}", error(1e-4), error(1e-2));
+    }
+
+    #[test]
+    fn estimates_tell_a_huge_layout_before_it_is_made() {
+        let region = circle((0.3, 0.1), 0.4);
+        let of = |s: &Sampling| Layout::estimate(&region, s);
+        let usual = sampling(2, 1e-4, Apertures::Nist);
+        let points = 2.0 * PI * (1.0 - 0.4_f64.cos()) / 1e-4;
+        assert_close(of(&usual), points + 360.0, 1e-6);
+        assert!(of(&Sampling { min_samples: 1e9, ..usual.clone() }) > 9e8);
+        assert!(of(&Sampling { differential: 1e-300, ..usual.clone() }) > 1e200);
+        assert!(of(&Sampling { polygon_sides: 1 << 30, ..usual }) > 1e9);
+    }
+}

@@ -1,0 +1,227 @@
+//! The solid angles over which a program integrates.
+//!
+//! Directions are (θ, φ) in radians; x, y and z are sin θ cos φ, sin θ sin φ and cos θ.
+//! Projected means on the plane of the sample, where the area of a region is its projected
+//! solid angle ∫ cos θ dΩ.
+
+use glam::DVec3;
+use thiserror::Error;
+
+mod caps;
+mod outline;
+mod polygon;
+
+pub(crate) use outline::{Frame, above_horizon, outline, refuse_crossing};
+pub(crate) use polygon::Polygon;
+
+use caps::Cap;
+
+/// A direction (θ, φ) in radians.
+pub type Angles = (f64, f64);
+
+/// The shape of an integral, and the centre towards which a sensitivity is turned.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Region {
+    /// One direction; the integral is the integrand times cos θ.
+    Differential {
+        /// The direction.
+        center: Angles,
+    },
+    /// The cone of half angle `alpha` around `center`.
+    Circle {
+        /// The axis, also the centre of polarization.
+        center: Angles,
+        /// The half angle, radians; its sign does not matter.
+        alpha: f64,
+    },
+    /// Everything above the horizon.
+    Hemi,
+    /// A cone without a smaller one.
+    Annulus {
+        /// Axis of the outer cone, also the centre of polarization.
+        outer_center: Angles,
+        /// Half angle of the outer cone, radians.
+        outer_alpha: f64,
+        /// Axis of the inner cone.
+        inner_center: Angles,
+        /// Half angle of the inner cone, radians.
+        inner_alpha: f64,
+    },
+    /// The polygon whose edges are straight in the projection, closed from last to first.
+    Polygon {
+        /// The corners, none below the horizon.
+        vertices: Vec<Angles>,
+        /// The centre of polarization.
+        polarization_center: Angles,
+    },
+}
+
+/// Whether apertures have the outlines that their names promise, or NIST's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Apertures {
+    /// Cones and the hemisphere, cut by the horizon and nothing else.
+    #[default]
+    Exact,
+    /// The polygons with `polygonsides` edges that NIST's program takes for them.
+    Nist,
+}
+
+/// A region that cannot be sampled.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum RegionError {
+    /// There is no such way of sampling.
+    #[error("integrationmode {0} is none of 1 to 6 and 11 to 16")]
+    Mode(i32),
+    /// Two edges of a polygon cross; edge `k` runs to vertex `k`, counted from 1.
+    #[error(
+        "segments cross in polygon: the edge to vertex {first} and the edge to vertex {second}"
+    )]
+    Crossing {
+        /// The edge that comes first.
+        first: usize,
+        /// The other one.
+        second: usize,
+    },
+    /// A vertex lies below the horizon.
+    #[error("vertex {number} is below the horizon: theta = {theta} rad is more than pi/2")]
+    BelowHorizon {
+        /// The vertex, counted from 1.
+        number: usize,
+        /// Its polar angle, radians.
+        theta: f64,
+    },
+    /// NIST's program never ends for these.
+    #[error("polygonsides is {0}, expected 0 or more")]
+    PolygonSides(i32),
+    /// An orthographic grid covers no more than a hemisphere around its axis.
+    #[error(
+        "alpha = {alpha} rad is more than pi/2, which the grid of integrationmode {mode} does not reach: use 1 or 2"
+    )]
+    WideOrthographic {
+        /// The half angle, radians.
+        alpha: f64,
+        /// The mode asked for.
+        mode: i32,
+    },
+}
+
+/// The unit vector of a direction.
+pub(crate) fn unit((theta, phi): Angles) -> DVec3 {
+    let ((s, c), (sp, cp)) = (theta.sin_cos(), phi.sin_cos());
+    DVec3::new(s * cp, s * sp, c)
+}
+
+/// The circular cone that is sampled to cover a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Cone {
+    /// Its axis.
+    pub(crate) axis: Angles,
+    /// Its solid angle, sr.
+    pub(crate) solid_angle: f64,
+}
+
+impl Region {
+    /// The centre towards which a sensitivity is turned.
+    pub fn polarization_center(&self) -> Angles {
+        match self {
+            Self::Differential { center } | Self::Circle { center, .. } => *center,
+            Self::Hemi => (0.0, 0.0),
+            Self::Annulus { outer_center, .. } => *outer_center,
+            Self::Polygon { polarization_center, .. } => *polarization_center,
+        }
+    }
+
+    /// The region with the larger circle of an annulus as its outer one.
+    ///
+    /// The centre of polarization goes along, so it is read before.
+    pub(crate) fn ordered(&self) -> Self {
+        match *self {
+            Self::Annulus { outer_center, outer_alpha, inner_center, inner_alpha }
+                if inner_alpha.abs() > outer_alpha.abs() =>
+            {
+                Self::Annulus {
+                    outer_center: inner_center,
+                    outer_alpha: inner_alpha,
+                    inner_center: outer_center,
+                    inner_alpha: outer_alpha,
+                }
+            }
+            _ => self.clone(),
+        }
+    }
+
+    /// The cone around the region.
+    pub(crate) fn cone(&self) -> Cone {
+        use std::f64::consts::PI;
+        let around = |axis, alpha: f64| Cone { axis, solid_angle: 2.0 * PI * (1.0 - alpha.cos()) };
+        match self {
+            Self::Differential { center } => Cone { axis: *center, solid_angle: 0.0 },
+            Self::Circle { center, alpha } => around(*center, *alpha),
+            Self::Hemi => Cone { axis: (0.0, 0.0), solid_angle: 2.0 * PI },
+            Self::Annulus { outer_center, outer_alpha, inner_alpha, .. } => {
+                around(*outer_center, outer_alpha.max(*inner_alpha))
+            }
+            Self::Polygon { vertices, .. } => cone_of_polygon(vertices),
+        }
+    }
+
+    /// The exact projected solid angle (sr) above the horizon; of an annulus, that of the outer
+    /// circle without the part it shares with the inner one.
+    pub fn projected_solid_angle(&self) -> f64 {
+        match self {
+            Self::Differential { .. } => 0.0,
+            Self::Circle { center, alpha } => caps::area(&[Cap::new(*center, *alpha)]),
+            Self::Hemi => std::f64::consts::PI,
+            Self::Annulus { outer_center, outer_alpha, inner_center, inner_alpha } => {
+                let outer = Cap::new(*outer_center, *outer_alpha);
+                caps::area(&[outer]) - caps::area(&[outer, Cap::new(*inner_center, *inner_alpha)])
+            }
+            Self::Polygon { vertices, .. } => {
+                Polygon::new(vertices.iter().map(|v| unit(*v).truncate()).collect()).area()
+            }
+        }
+    }
+}
+
+/// The cone around a polygon: its axis is the middle of the projected extent, raised by 1.
+fn cone_of_polygon(vertices: &[Angles]) -> Cone {
+    let corners: Vec<DVec3> = vertices.iter().map(|v| unit(*v)).collect();
+    let Some(first) = corners.first() else {
+        return Cone { axis: (0.0, 0.0), solid_angle: 0.0 };
+    };
+    let low = corners.iter().fold(*first, |a, b| a.min(*b));
+    let high = corners.iter().fold(*first, |a, b| a.max(*b));
+    let axis = DVec3::new(low.x + high.x, low.y + high.y, 2.0).normalize();
+    let smallest = corners.iter().fold(1.0, |m: f64, v| m.min(axis.dot(*v)));
+    Cone {
+        axis: (axis.z.acos(), axis.y.atan2(axis.x)),
+        solid_angle: 2.0 * std::f64::consts::PI * (1.0 - smallest),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cone_of_a_polygon_holds_its_corners() {
+        let vertices = vec![(1.5, 0.1), (1.2, 0.9), (0.3, 0.5), (0.9, -0.4)];
+        let cone = cone_of_polygon(&vertices);
+        let cosine = 1.0 - cone.solid_angle / (2.0 * std::f64::consts::PI);
+        for v in vertices {
+            assert!(unit(cone.axis).dot(unit(v)) >= cosine - 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_larger_circle_of_an_ordered_annulus_is_outside() {
+        let annulus = |outer_alpha, inner_alpha| Region::Annulus {
+            outer_center: (0.0, 0.0),
+            outer_alpha,
+            inner_center: (0.0, 0.0),
+            inner_alpha,
+        };
+        assert_eq!(annulus(0.2, 0.5).ordered(), annulus(0.5, 0.2));
+        assert_eq!(annulus(0.5, 0.2).ordered(), annulus(0.5, 0.2));
+    }
+}

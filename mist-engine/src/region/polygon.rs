@@ -1,0 +1,191 @@
+//! Polygons in the plane of the sample, and which points NIST's rules put inside of them.
+
+use glam::DVec2;
+
+/// A polygon, closed from its last vertex to its first.
+#[derive(Clone, Debug)]
+pub(crate) struct Polygon {
+    vertices: Vec<DVec2>,
+    slabs: Slabs,
+}
+
+/// One edge, from `a` to `b`.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    a: DVec2,
+    b: DVec2,
+}
+
+impl Edge {
+    /// Whether a ray from `p` counts this edge: the first rule that applies decides.
+    fn counts(&self, p: DVec2) -> bool {
+        let Self { a, b } = self;
+        if (a.x < p.x && b.x <= p.x) || (a.x > p.x && b.x >= p.x) || (a.y < p.y && b.y <= p.y) {
+            return false;
+        }
+        if a.y >= p.y && b.y > p.y {
+            return (a.x >= p.x && b.x < p.x) || (a.x <= p.x && b.x > p.x);
+        }
+        a.y + (b.y - a.y) * (p.x - a.x) / (b.x - a.x) > p.y
+    }
+
+    /// Whether the open segments cross in one point.
+    fn crosses(&self, other: &Self) -> bool {
+        let (d, e, ac) = (self.b - self.a, other.b - other.a, other.a - self.a);
+        let parallel = d.perp_dot(e);
+        let (t, u) = (ac.perp_dot(e) / parallel, ac.perp_dot(d) / parallel);
+        parallel != 0.0 && 0.0 < t && t < 1.0 && 0.0 < u && u < 1.0
+    }
+}
+
+/// The edges sorted into slabs of x, so that a test looks at the few that can matter.
+///
+/// An edge whose two ends lie on the same side of a point in x is never counted, so leaving it
+/// out changes no decision.
+#[derive(Clone, Debug, Default)]
+struct Slabs {
+    low: f64,
+    high: f64,
+    per_x: f64,
+    /// Slab k holds `edges[starts[k]..starts[k + 1]]`.
+    starts: Vec<usize>,
+    edges: Vec<Edge>,
+}
+
+/// At most so many slabs: enough for outlines of a few thousand edges.
+const MOST_SLABS: usize = 1024;
+
+impl Slabs {
+    fn new(edges: &[Edge]) -> Self {
+        let xs = || edges.iter().map(|e| e.a.x);
+        let (low, high) =
+            (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+        if edges.iter().any(|e| !e.a.is_finite()) || edges.is_empty() {
+            return Self::default();
+        }
+        let count = edges.len().clamp(1, MOST_SLABS);
+        let per_x = if high > low { count as f64 / (high - low) } else { 0.0 };
+        let mut slabs = Self { low, high, per_x, ..Self::default() };
+        let mut lists = vec![Vec::new(); count];
+        for edge in edges {
+            let (from, to) = (edge.a.x.min(edge.b.x), edge.a.x.max(edge.b.x));
+            for list in &mut lists[slabs.index(from, count)..=slabs.index(to, count)] {
+                list.push(*edge);
+            }
+        }
+        slabs.starts.push(0);
+        for list in lists {
+            slabs.edges.extend(list);
+            slabs.starts.push(slabs.edges.len());
+        }
+        slabs
+    }
+
+    /// The slab of `x`; a monotone function of it.
+    fn index(&self, x: f64, count: usize) -> usize {
+        (((x - self.low) * self.per_x) as usize).min(count - 1)
+    }
+
+    /// The edges that a point of abscissa `x` can count.
+    fn at(&self, x: f64) -> &[Edge] {
+        if self.starts.is_empty() || !(self.low <= x && x <= self.high) {
+            return &[];
+        }
+        let k = self.index(x, self.starts.len() - 1);
+        &self.edges[self.starts[k]..self.starts[k + 1]]
+    }
+}
+
+impl Polygon {
+    /// The polygon with these vertices; few or none of them are fine.
+    pub(crate) fn new(vertices: Vec<DVec2>) -> Self {
+        let slabs = Slabs::new(&edges(&vertices).collect::<Vec<_>>());
+        Self { vertices, slabs }
+    }
+
+    /// Whether `p` is inside by the even–odd rule, with NIST's decisions for points on an edge.
+    pub(crate) fn contains(&self, p: DVec2) -> bool {
+        self.slabs.at(p.x).iter().filter(|edge| edge.counts(p)).count() % 2 == 1
+    }
+
+    /// The absolute value of the shoelace sum.
+    pub(crate) fn area(&self) -> f64 {
+        (0.5 * edges(&self.vertices).map(|e| e.a.perp_dot(e.b)).sum::<f64>()).abs()
+    }
+
+    /// Two edges that cross, by the vertices they run to, counted from 0.
+    ///
+    /// The edge to the last vertex and the closing edge are tested only if `all`; NIST's
+    /// program does not test them as the later of the two.
+    pub(crate) fn crossing(&self, all: bool) -> Option<(usize, usize)> {
+        let n = self.vertices.len();
+        let edge = |k: usize| Edge { a: self.vertices[(k + n - 1) % n], b: self.vertices[k] };
+        if all {
+            let mut pairs = (0..n).flat_map(|j| (j + 2..n).map(move |i| (j, i)));
+            return pairs.find(|(j, i)| edge(*j).crosses(&edge(*i)));
+        }
+        let mut pairs = (1..n).flat_map(|j| (j + 2..n.saturating_sub(1)).map(move |i| (j, i)));
+        pairs.find(|(j, i)| edge(*j).crosses(&edge(*i)))
+    }
+}
+
+/// The edges in order, the closing one last.
+fn edges(vertices: &[DVec2]) -> impl Iterator<Item = Edge> + '_ {
+    let n = vertices.len();
+    (0..n).map(move |k| Edge { a: vertices[k], b: vertices[(k + 1) % n] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn star() -> Vec<DVec2> {
+        let radius = |k: usize| if k.is_multiple_of(2) { 0.9 } else { 0.3 };
+        (0..14).map(|k| DVec2::from_angle(0.2 + 0.45 * k as f64) * radius(k)).collect()
+    }
+
+    #[test]
+    fn slabs_change_no_decision() {
+        let vertices = star();
+        let polygon = Polygon::new(vertices.clone());
+        let plain = |p| edges(&vertices).filter(|e| e.counts(p)).count() % 2 == 1;
+        for i in -50..=50 {
+            for j in -50..=50 {
+                let p = DVec2::new(f64::from(i), f64::from(j)) * 0.02;
+                assert_eq!(polygon.contains(p), plain(p), "{p}");
+            }
+        }
+        for p in vertices.iter().chain(&[DVec2::new(0.9, 0.0)]) {
+            assert_eq!(polygon.contains(*p), plain(*p), "{p}");
+        }
+    }
+
+    #[test]
+    fn points_on_the_edges_of_a_square_belong_to_its_right_and_lower_sides() {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let square = Polygon::new(corners.map(|(x, y)| DVec2::new(x, y)).to_vec());
+        let inside = |x, y| square.contains(DVec2::new(x, y));
+        assert!(inside(0.5, 0.5) && !inside(1.5, 0.5) && !inside(0.5, -0.5));
+        assert!(!inside(0.5, 1.0), "on the upper edge");
+        assert!((square.area() - 1.0).abs() < 1e-16);
+    }
+
+    #[test]
+    fn a_bow_tie_of_four_vertices_passes_the_short_test_only() {
+        let corners = [(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)];
+        let bow = Polygon::new(corners.map(|(x, y)| DVec2::new(x, y)).to_vec());
+        assert_eq!(bow.crossing(false), None);
+        assert_eq!(bow.crossing(true), Some((1, 3)));
+    }
+
+    #[test]
+    fn repeated_vertices_and_empty_polygons_are_harmless() {
+        let empty = Polygon::new(Vec::new());
+        assert!(!empty.contains(DVec2::ZERO));
+        assert_eq!((empty.area(), empty.crossing(true)), (0.0, None));
+        let point = Polygon::new(vec![DVec2::ZERO; 3]);
+        assert!(!point.contains(DVec2::ZERO));
+        assert_eq!(point.crossing(true), None);
+        assert!(!Polygon::new(vec![DVec2::NAN; 3]).contains(DVec2::ZERO));
+    }
+}

@@ -1,0 +1,340 @@
+//! How the directions of an integral are laid out.
+//!
+//! A square grid or random points in a plane are projected onto a cone around the region, and
+//! the points above the horizon and inside the region are kept. A [`Layout`] depends neither on
+//! the wavelength nor on the model, so runs share it; large ones are not stored but laid out
+//! again, chunk by chunk, for every integral.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec3;
+use rayon::prelude::*;
+use scattering::Direction;
+
+use crate::region::{Apertures, Frame, Polygon, Region, RegionError};
+use crate::region::{above_horizon, outline, refuse_crossing};
+
+mod key;
+mod pattern;
+mod projection;
+mod turn;
+
+pub use key::LayoutKey;
+
+use pattern::Pattern;
+use projection::Projection;
+use turn::Turn;
+
+/// What a program says about the sampling of its integrals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampling {
+    /// Solid angle per direction, sr.
+    pub differential: f64,
+    /// Directions in the cone around a region, at least; decimals are dropped.
+    pub min_samples: f64,
+    /// Grids 1–3, random points 4–6; 10 more for sums without normalization.
+    pub mode: i32,
+    /// Edges of the polygons that stand for circles, for [`Apertures::Nist`].
+    pub polygon_sides: i32,
+    /// The outlines of circles and hemispheres.
+    pub apertures: Apertures,
+    /// Selects the random points of modes 4–6.
+    pub seed: u64,
+}
+
+/// Points of the plane per chunk: the unit of work and of addition.
+const CHUNK: u64 = 512;
+
+/// Layouts of at most so many points of the plane are stored (72 bytes per direction kept).
+const STORED: u64 = 1 << 18;
+
+/// The directions of a region with what an integral needs to know about them.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    plan: Plan,
+    stored: Option<Vec<Chunk>>,
+}
+
+/// A part of a layout, in the order of evaluation.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Chunk {
+    pub(crate) directions: Vec<Direction>,
+    pub(crate) weights: Vec<Weight>,
+}
+
+/// What belongs to one direction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weight {
+    /// Weight of the sampling times cos θ.
+    pub(crate) weight: f64,
+    /// cos 2β, β the turn of the sensitivity towards the centre of polarization.
+    pub(crate) cos2b: f64,
+    /// sin 2β, to be negated for light that leaves downwards.
+    pub(crate) sin2b: f64,
+}
+
+/// How a weighted sum becomes an integral.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Scale {
+    /// Times a projected solid angle, over the sum of the weights.
+    Normalized(f64),
+    /// Times a solid angle per point.
+    Fixed(f64),
+}
+
+#[derive(Clone, Debug)]
+struct Plan {
+    pattern: Pattern,
+    projection: Projection,
+    frame: Frame,
+    inside: Inside,
+    turn: Turn,
+    scale: Scale,
+    apertures: Apertures,
+}
+
+/// What a direction of the cone must meet to belong to the region.
+#[derive(Clone, Debug)]
+enum Inside {
+    /// Nothing: the region is the cone.
+    Cone,
+    /// To be inside of a polygon.
+    Polygon(Polygon),
+    /// To be outside of the cone with this axis and cosine.
+    Outside { axis: DVec3, cos: f64 },
+    /// The region is one direction, laid out without a cone.
+    One(Direction),
+}
+
+impl Layout {
+    /// Lays out `region`.
+    ///
+    /// # Errors
+    ///
+    /// For modes that do not exist, for polygons that cross themselves or reach below the
+    /// horizon, and for what NIST's program never finishes.
+    pub fn new(region: &Region, sampling: &Sampling) -> Result<Self, RegionError> {
+        let plan = Plan::new(region, sampling)?;
+        let stored = (plan.points() <= STORED).then(|| plan.all_chunks());
+        Ok(Self { plan, stored })
+    }
+
+    /// About how many directions and vertices a layout has, before it is made.
+    ///
+    /// Infinite or huge for extreme values of `differential`, `minsamples` and `polygonsides`.
+    pub fn estimate(region: &Region, sampling: &Sampling) -> f64 {
+        let sides = match (region, sampling.apertures) {
+            (Region::Polygon { vertices, .. }, _) => vertices.len() as f64,
+            (Region::Differential { .. }, _) | (_, Apertures::Exact) => 0.0,
+            (Region::Annulus { .. }, _) => 2.0 * f64::from(sampling.polygon_sides),
+            _ => f64::from(sampling.polygon_sides),
+        };
+        let points = match (region, Projection::of_mode(sampling.mode)) {
+            (Region::Differential { .. }, _) | (_, None) => 1.0,
+            (_, Some(projection)) => {
+                let (step, radius) = grid(region, sampling, projection);
+                PI * (radius / step).powi(2)
+            }
+        };
+        sides.max(0.0) + if points.is_nan() { 0.0 } else { points }
+    }
+
+    /// The number of chunks; a chunk has at most 512 directions.
+    pub(crate) fn chunks(&self) -> usize {
+        usize::try_from(self.plan.points().div_ceil(CHUNK)).unwrap_or(usize::MAX)
+    }
+
+    /// Hands chunk `k` to `use_it`.
+    pub(crate) fn with_chunk<T>(&self, k: usize, use_it: impl FnOnce(&Chunk) -> T) -> T {
+        match &self.stored {
+            Some(chunks) => use_it(&chunks[k]),
+            None => use_it(&self.plan.chunk(k as u64)),
+        }
+    }
+
+    pub(crate) fn scale(&self) -> Scale {
+        self.plan.scale
+    }
+
+    /// Whether the region is one direction.
+    pub(crate) fn is_single_direction(&self) -> bool {
+        matches!(self.plan.inside, Inside::One(_))
+    }
+
+    /// Memory of the stored directions, bytes.
+    pub fn bytes(&self) -> usize {
+        let per_direction = size_of::<Direction>() + size_of::<Weight>();
+        let kept = self.stored.iter().flatten().map(|c| c.weights.capacity());
+        size_of::<Self>() + kept.sum::<usize>() * per_direction
+    }
+}
+
+impl Plan {
+    fn new(region: &Region, sampling: &Sampling) -> Result<Self, RegionError> {
+        if let Region::Differential { center } = region {
+            return Ok(Self::single(Direction::new(center.0, center.1)));
+        }
+        let projection =
+            Projection::of_mode(sampling.mode).ok_or(RegionError::Mode(sampling.mode))?;
+        let turn = Turn::towards(region.polarization_center());
+        let (region, apertures) = match sampling.apertures {
+            Apertures::Exact => (&region.ordered(), sampling.apertures),
+            Apertures::Nist => (region, sampling.apertures),
+        };
+        let (inside, projected) = match apertures {
+            Apertures::Nist => {
+                let outline = outline(region, sampling.polygon_sides)?;
+                (Inside::Polygon(outline.polygon), outline.projected_solid_angle)
+            }
+            Apertures::Exact => (exact(region, sampling)?, region.projected_solid_angle()),
+        };
+        let (step, radius) = grid(region, sampling, projection);
+        let pattern = Pattern::new(sampling, step, radius);
+        let scale = if sampling.mode / 10 == 0 {
+            Scale::Normalized(projected)
+        } else {
+            Scale::Fixed(projection.area_per_area() * pattern.area_per_point())
+        };
+        let frame = Frame::new(region.cone().axis);
+        Ok(Self { pattern, projection, frame, inside, turn, scale, apertures })
+    }
+
+    fn single(direction: Direction) -> Self {
+        Self {
+            pattern: Pattern::One,
+            projection: Projection::EqualArea,
+            frame: Frame::new((0.0, 0.0)),
+            inside: Inside::One(direction),
+            turn: Turn::towards((0.0, 0.0)),
+            scale: Scale::Fixed(1.0),
+            apertures: Apertures::Exact,
+        }
+    }
+
+    fn points(&self) -> u64 {
+        self.pattern.points()
+    }
+
+    fn all_chunks(&self) -> Vec<Chunk> {
+        let count = self.points().div_ceil(CHUNK);
+        if count == 1 {
+            return vec![self.chunk(0)];
+        }
+        (0..count).into_par_iter().map(|k| self.chunk(k)).collect()
+    }
+
+    fn chunk(&self, k: u64) -> Chunk {
+        let mut chunk = Chunk::default();
+        if let Inside::One(direction) = self.inside {
+            if direction.theta.abs() < FRAC_PI_2 {
+                chunk.push(direction, Weight { weight: direction.cos, cos2b: 1.0, sin2b: 0.0 });
+            }
+            return chunk;
+        }
+        let range = k * CHUNK..self.points().min((k + 1) * CHUNK);
+        self.pattern.for_each(range, |x, y| {
+            if let Some((direction, v, weight)) = self.direction(x, y) {
+                let (cos2b, sin2b) = self.turn.at(v);
+                chunk.push(direction, Weight { weight, cos2b, sin2b });
+            }
+        });
+        chunk
+    }
+
+    /// The direction of a point of the plane, its unit vector and its weight times cos θ, if it
+    /// belongs to the region.
+    fn direction(&self, x: f64, y: f64) -> Option<(Direction, DVec3, f64)> {
+        let (u, mut weight) = self.projection.lift(x, y);
+        let mut v = self.frame.turn(u);
+        if self.projection.is_delicate(u.z, v.z) {
+            let (u, same_weight) = self.projection.lift_by_angles(x, y);
+            (v, weight) = (self.frame.turn(u), same_weight);
+        }
+        if v.z <= 0.0 {
+            return None;
+        }
+        let direction = seen(v);
+        let is_inside = match &self.inside {
+            Inside::Cone => true,
+            Inside::Polygon(polygon) => polygon.contains(v.truncate()),
+            Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
+            Inside::One(_) => false,
+        };
+        let has_cosine = self.apertures == Apertures::Nist || direction.theta < FRAC_PI_2;
+        (is_inside && has_cosine).then_some((direction, v, weight * v.z))
+    }
+}
+
+impl Chunk {
+    fn push(&mut self, direction: Direction, weight: Weight) {
+        self.directions.push(direction);
+        self.weights.push(weight);
+    }
+}
+
+/// The direction of the unit vector `v`.
+fn seen(v: DVec3) -> Direction {
+    let (theta, phi) = (v.z.acos(), v.y.atan2(v.x));
+    let across = v.x.hypot(v.y);
+    let (sin_phi, cos_phi) =
+        if across > 0.0 { (v.y / across, v.x / across) } else { phi.sin_cos() };
+    let sin = ((1.0 - v.z) * (1.0 + v.z)).max(0.0).sqrt();
+    Direction { theta, phi, sin, cos: v.z, sin_phi, cos_phi }
+}
+
+/// The test that makes a grid on the cone of `region` a grid on the region itself.
+fn exact(region: &Region, sampling: &Sampling) -> Result<Inside, RegionError> {
+    match region {
+        Region::Polygon { vertices, .. } => {
+            above_horizon(vertices)?;
+            let corners = vertices.iter().map(|v| crate::region::unit(*v).truncate());
+            let polygon = Polygon::new(corners.collect());
+            refuse_crossing(polygon.crossing(true))?;
+            Ok(Inside::Polygon(polygon))
+        }
+        Region::Circle { alpha, .. } => {
+            reachable(*alpha, sampling.mode)?;
+            Ok(Inside::Cone)
+        }
+        Region::Annulus { outer_alpha, inner_center, inner_alpha, .. } => {
+            reachable(*outer_alpha, sampling.mode)?;
+            let axis = crate::region::unit(*inner_center);
+            Ok(Inside::Outside { axis, cos: inner_alpha.cos() })
+        }
+        Region::Hemi => Ok(Inside::Cone),
+        Region::Differential { center } => Ok(Inside::One(Direction::new(center.0, center.1))),
+    }
+}
+
+fn reachable(alpha: f64, mode: i32) -> Result<(), RegionError> {
+    let orthographic = Projection::of_mode(mode) == Some(Projection::Orthographic);
+    if orthographic && alpha.abs() > FRAC_PI_2 {
+        return Err(RegionError::WideOrthographic { alpha: alpha.abs(), mode });
+    }
+    Ok(())
+}
+
+/// Step and radius of the grid in the plane.
+fn grid(region: &Region, sampling: &Sampling, projection: Projection) -> (f64, f64) {
+    let solid_angle = match sampling.apertures {
+        Apertures::Exact => region.ordered().cone().solid_angle,
+        Apertures::Nist => region.cone().solid_angle,
+    };
+    let least = (f64::from(truncated(sampling.min_samples)).sqrt() + 0.9999999).floor().powi(2);
+    let mut per_point = sampling.differential;
+    if solid_angle / per_point < least {
+        per_point = solid_angle / least;
+    }
+    let alpha = (1.0 - solid_angle / TAU).acos();
+    ((per_point / projection.area_per_area()).sqrt(), projection.radius(alpha))
+}
+
+/// The whole part of `x` as C's (int) gives it on x86: i32::MIN where it does not fit.
+fn truncated(x: f64) -> i32 {
+    let whole = x.trunc();
+    if whole >= f64::from(i32::MIN) && whole <= f64::from(i32::MAX) {
+        whole as i32
+    } else {
+        i32::MIN
+    }
+}

@@ -1,0 +1,121 @@
+//! Projections of a disk onto a cone around the normal.
+
+use glam::DVec3;
+
+/// How a point at the distance ρ from the origin becomes a polar angle t.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Projection {
+    /// Modes 1 and 4: t = ρ.
+    Equidistant,
+    /// Modes 2 and 5: 1 − cos t = ρ², equal areas stay equal.
+    EqualArea,
+    /// Modes 3 and 6: sin t = ρ.
+    Orthographic,
+}
+
+/// Closer to a horizon than this, sines and cosines are taken of angles, as NIST's program does:
+/// whether a point is kept can depend on their rounding.
+const DELICATE: f64 = 1e-9;
+
+impl Projection {
+    /// The projection of a value of `integrationmode`.
+    pub(super) fn of_mode(mode: i32) -> Option<Self> {
+        match mode % 10 {
+            1 | 4 => Some(Self::Equidistant),
+            2 | 5 => Some(Self::EqualArea),
+            3 | 6 => Some(Self::Orthographic),
+            _ => None,
+        }
+    }
+
+    /// Solid angle per area of the plane at the centre.
+    pub(super) fn area_per_area(self) -> f64 {
+        if self == Self::EqualArea { 2.0 } else { 1.0 }
+    }
+
+    /// The radius of the disk that covers polar angles up to `alpha`.
+    pub(super) fn radius(self, alpha: f64) -> f64 {
+        match self {
+            Self::Equidistant => alpha,
+            Self::EqualArea => (1.0 - alpha.cos()).sqrt(),
+            Self::Orthographic => alpha.sin(),
+        }
+    }
+
+    /// The unit vector of a point, and the weight that makes up for the projection.
+    pub(super) fn lift(self, x: f64, y: f64) -> (DVec3, f64) {
+        let z2 = x * x + y * y;
+        match self {
+            Self::Equidistant => {
+                let t = z2.sqrt();
+                let (sin, cos) = t.sin_cos();
+                let weight = if t == 0.0 { 1.0 } else { sin / t };
+                (DVec3::new(x * weight, y * weight, cos), weight)
+            }
+            Self::EqualArea => {
+                let stretch = (2.0 - z2).max(0.0).sqrt();
+                (DVec3::new(x * stretch, y * stretch, 1.0 - z2), 1.0)
+            }
+            Self::Orthographic => {
+                let z = (1.0 - z2).sqrt();
+                (DVec3::new(x, y, z), 1.0 / z)
+            }
+        }
+    }
+
+    /// [`Projection::lift`] by way of the polar angles.
+    pub(super) fn lift_by_angles(self, x: f64, y: f64) -> (DVec3, f64) {
+        let z2 = x * x + y * y;
+        let t = match self {
+            Self::Equidistant => z2.sqrt(),
+            Self::EqualArea => (1.0 - z2).acos(),
+            Self::Orthographic => z2.sqrt().asin(),
+        };
+        let weight = match self {
+            Self::Equidistant if t == 0.0 => 1.0,
+            Self::Equidistant => t.sin() / t,
+            Self::EqualArea => 1.0,
+            Self::Orthographic => 1.0 / t.cos(),
+        };
+        (crate::region::unit((t, y.atan2(x))), weight)
+    }
+
+    /// Whether rounding decides about a point with these cosines to the axis and to the normal.
+    pub(super) fn is_delicate(self, to_axis: f64, to_normal: f64) -> bool {
+        to_normal.abs() < DELICATE || (self == Self::Orthographic && to_axis < DELICATE.sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ways_to_lift_a_point_agree() {
+        for mode in [1, 2, 3] {
+            let projection = Projection::of_mode(mode).unwrap();
+            for (x, y) in [(0.0, 0.0), (0.1, -0.2), (-0.7, 0.3), (0.5, 0.8), (0.0, -0.9)] {
+                let (u, w) = projection.lift(x, y);
+                let (v, by_angles) = projection.lift_by_angles(x, y);
+                assert!((u - v).length() < 1e-15 && (w / by_angles - 1.0).abs() < 1e-14);
+                assert!((u.length() - 1.0).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn the_radius_is_where_the_rim_of_the_cone_lies() {
+        for mode in [1, 2, 3] {
+            let projection = Projection::of_mode(mode).unwrap();
+            let (u, _) = projection.lift(projection.radius(0.8), 0.0);
+            assert!((u.z - 0.8_f64.cos()).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn modes_that_do_not_exist_have_no_projection() {
+        for mode in [0, 7, 10, 17, -1, 20] {
+            assert_eq!(Projection::of_mode(mode), None);
+        }
+    }
+}
