@@ -4,6 +4,7 @@ pub mod diagnostic;
 pub mod dialect;
 pub mod expr;
 pub mod number;
+pub mod optics;
 pub mod program;
 pub mod span;
 pub mod suggestion;

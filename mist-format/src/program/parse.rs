@@ -168,19 +168,21 @@ impl<'t> Parser<'t> {
 
     fn for_loop(&mut self, cue: Span, start: Span) -> Read<Loop> {
         let variable = self.section_token(cue)?;
-        let from = self.bound("FROM", cue)?;
-        let to = self.bound("TO", cue)?;
-        let by = self.bound("BY", cue)?;
+        let from = self.bound("FROM", cue, start.to(variable.span()))?;
+        let to = self.bound("TO", cue, start.to(from.span()))?;
+        let by = self.bound("BY", cue, start.to(to.span()))?;
         let span = start.to(by.span());
         Ok(Loop::For(Box::new(ForLoop { variable, from, to, by, span })))
     }
 
-    /// A keyword and the expression behind it.
-    fn bound(&mut self, keyword: &str, cue: Span) -> Read<Text> {
+    /// A keyword and the expression behind it; `before` is the statement up to there.
+    fn bound(&mut self, keyword: &str, cue: Span, before: Span) -> Read<Text> {
         let word = self.section_token(cue)?;
         if !is(&word, keyword) {
             let message = format!("missing {keyword} in FOR statement, found `{word}`");
-            let missing = Diagnostic::error("program/vary-keyword", word.span(), message);
+            let between = Span::new(before.end, word.span().start).of(self.text);
+            let place = if between.contains('\n') { before } else { word.span() };
+            let missing = Diagnostic::error("program/vary-keyword", place, message);
             return self.fatal(missing.help(
                 "write FOR variable FROM start TO end BY step; quote expressions with blanks",
             ));
@@ -507,23 +509,22 @@ impl<'t> Parser<'t> {
         }
         let rest = self.reader.rest();
         let line = &rest[..rest.find(['\n', ';']).unwrap_or(rest.len())];
-        let message = "a blank ends this value inside a parenthesis";
-        let found = Diagnostic::error("program/blank-in-value", value.span(), message);
         self.found.push(if line.contains(')') {
+            let message = "a blank ends this value inside a parenthesis";
+            let found = Diagnostic::error("program/blank-in-value", value.span(), message);
             let whole = format!("{value}{}", line.trim_end());
             self.reader.go_to(self.reader.at() + line.len());
             found.help(format!("write it in quotes, `\"{whole}\"`, or without blanks"))
         } else {
-            found.help("close the parenthesis; a value with blanks needs quotes")
+            let message = "mismatched parentheses";
+            Diagnostic::error("program/parentheses", value.span(), message)
+                .help("close the parenthesis; a value with blanks needs quotes")
         });
     }
 
-    fn an_equal_sign_follows(&mut self) -> bool {
-        let before = self.reader.at();
-        self.reader.skip_blanks();
-        let follows = self.reader.rest().starts_with('=');
-        self.reader.go_to(before);
-        follows
+    /// Whether the value just read is the name of the next assignment.
+    fn an_equal_sign_follows(&self) -> bool {
+        self.reader.rest().trim_start_matches([' ', '\t']).starts_with('=')
     }
 
     /// The text of a token; a comment inside its quotes is refused where the dialect wants it.

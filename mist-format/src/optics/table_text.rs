@@ -1,0 +1,90 @@
+//! The text of a Table: a constant, a formula of one variable, or columns of a file.
+
+use super::OpticsError;
+use crate::dialect::{Dialect, Quirk};
+use crate::expr::{Expr, NoNames, Stack, Value};
+
+/// A Table parameter as text.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TableText {
+    /// An expression without variables. Column c is its (c−1)st element, and a single number
+    /// counts for the first of them only.
+    Constant(Value),
+    /// `@v:expr,…`: column c is the (c−1)st element.
+    Formula {
+        /// The variable.
+        variable: String,
+        /// The columns from the second on.
+        columns: Expr,
+    },
+    /// `file` or `file!k`: the values stand in column k.
+    File {
+        /// The file.
+        name: String,
+        /// The column behind the `!`, from 1.
+        column: Option<usize>,
+    },
+}
+
+impl TableText {
+    /// Reads the text of a Table. NIST takes its first word.
+    ///
+    /// # Errors
+    /// No text, a formula that is no expression; sound: more than one word.
+    pub fn parse(text: &str, dialect: Dialect) -> Result<Self, OpticsError> {
+        if let Some(value) = constant(text) {
+            return Ok(Self::Constant(value));
+        }
+        let mut words = text.split_ascii_whitespace();
+        let word = words.next().ok_or(OpticsError::Empty)?;
+        if words.next().is_some() && Quirk::NumberPrefix.refused_in(dialect) {
+            let (text, reading) = (text.to_owned(), word.to_owned());
+            return Err(OpticsError::Refused { text, reading, quirk: Quirk::NumberPrefix });
+        }
+        if let Some((variable, formula)) = word.strip_prefix('@').and_then(|w| w.split_once(':')) {
+            let columns = Expr::compile_library(formula)
+                .map_err(|error| OpticsError::Formula { text: formula.into(), error })?;
+            return Ok(Self::Formula { variable: variable.into(), columns });
+        }
+        let parts = word.rsplit_once('!');
+        let numbered = parts.and_then(|(name, column)| Some((name, column.parse().ok()?)));
+        Ok(match numbered {
+            Some((name, column)) => Self::File { name: name.into(), column: Some(column) },
+            None => Self::File { name: word.into(), column: None },
+        })
+    }
+}
+
+/// The value of an expression that needs neither names nor files.
+pub(super) fn constant(text: &str) -> Option<Value> {
+    let expr = Expr::compile_library(text).ok()?;
+    expr.eval(&mut NoNames, &mut Stack::default()).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> TableText {
+        TableText::parse(text, Dialect::Sound).unwrap()
+    }
+
+    #[test]
+    fn the_forms_are_told_apart() {
+        assert_eq!(parse("0.5*2"), TableText::Constant(Value::from(1.0)));
+        assert_eq!(parse("(1.5,0.2)"), TableText::Constant(Value::new(1.5, &[0.2])));
+        let file = |name: &str, column| TableText::File { name: name.into(), column };
+        assert_eq!(parse("gold.txt"), file("gold.txt", None));
+        assert_eq!(parse("gold.txt!4"), file("gold.txt", Some(4)));
+        assert_eq!(parse("wow!.txt"), file("wow!.txt", None));
+        match parse("@w:sqrt(w)+1,if(w>0.5,0.1,0)") {
+            TableText::Formula { variable, columns } => {
+                assert_eq!(variable, "w");
+                assert_eq!(columns.names(), ["w"]);
+            }
+            other => panic!("{other:?}"),
+        }
+        assert!(TableText::parse("@x:1+", Dialect::Compat).is_err());
+        assert_eq!(TableText::parse(" ", Dialect::Compat), Err(OpticsError::Empty));
+    }
+}
