@@ -1,4 +1,4 @@
-//! Power spectral densities and roughness models against NIST's library.
+//! Power spectral densities, roughness models and small spheres against NIST's library.
 
 mod reference;
 
@@ -36,4 +36,9 @@ fn rough_films_agree_with_the_library() {
         "Correlated_Roughness_BRDF_Model",
         "Two_Face_BRDF_Model",
     ]);
+}
+
+#[test]
+fn small_spheres_agree_with_the_library() {
+    check(&["Rayleigh_Defect_BRDF_Model", "Rayleigh_Stack_BRDF_Model", "OneLayer_BRDF_Model"]);
 }

@@ -1,7 +1,17 @@
 //! Particles on, in and below a surface.
 
 use super::Brdf;
-use crate::spec::Spec;
+use crate::spec::{Param, Spec};
+
+pub mod one_layer;
+pub mod rayleigh_defect;
+pub mod rayleigh_stack;
+mod small_sphere;
 
 /// The models of this group, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Brdf>] = &[];
+pub const ALL: &[&Spec<dyn Brdf>] =
+    &[&rayleigh_defect::SPEC, &rayleigh_stack::SPEC, &one_layer::SPEC];
+
+/// The parameter of models that multiply the cross-section of a particle by their number.
+pub const LOCAL: &[Param] =
+    &[Param::number("density", "1", "1/um^2", "Number of particles per area")];

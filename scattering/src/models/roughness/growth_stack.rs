@@ -22,7 +22,7 @@
 
 use std::{f64::consts::PI, slice};
 
-use super::{ROUGHNESS, Rough, interfaces::Interfaces};
+use super::{ROUGHNESS, Rough, STACK, interfaces::Interfaces};
 use crate::{
     Direction, Incidence, Jones, Mueller, ParamError,
     models::{Brdf, COMMON, Common},
@@ -39,7 +39,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         summary: "Stack of films with partly replicated roughness",
         equation: "F = PSD M(K_0) + sum_m I (1 - a_(m-1)^2) M(K_m), K_m = J_m + a_m K_(m+1)",
         source: "stearns-1993 elson-1995",
-        params: &[COMMON, ROUGHNESS, OWN],
+        params: &[COMMON, ROUGHNESS, STACK, OWN],
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
@@ -63,7 +63,6 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 };
 
 const OWN: &[Param] = &[
-    Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
     Param::number("relaxation", "0", "um", "Relaxation length of the growth"),
     Param::number("exponent", "2", "1", "Exponent of the relaxation"),
     Param::member(

@@ -1,22 +1,10 @@
-//! First-order amplitudes of every interface of a film stack, by reciprocity.
+//! First-order amplitudes of every interface of a film stack.
 //!
-//! The amplitude that a small displacement of one interface scatters is the bilinear form of the
-//! field that the source drives there and the field that a unit wave sent in from the detector
-//! would drive there. With the fields E (s) and U, W (p) of [`Films`], D = κU, the permittivities
-//! ε₋ below and ε₊ above the interface, σ = −1 for reflection and +1 for transmission,
+//! The small displacement of an interface between permittivities ε₋ below and ε₊ above is the
+//! perturbation of [`FirstOrder`] with
 //!
-//! $$ C = \sigma \frac{\pi}{\lambda^2} (\varepsilon_+ - \varepsilon_-)
-//!        \sqrt{\frac{n_d}{\cos\theta_i \cos\theta_s}} $$
-//!
-//! $$ J_{ss} = C E_i E_s \cos\varphi, \quad J_{ps} = -C W_i E_s \sin\varphi, \quad
-//!    J_{sp} = \sigma C E_i W_s \sin\varphi, \quad
-//!    J_{pp} = C \left( \frac{D_i D_s}{\varepsilon_- \varepsilon_+}
-//!             + \sigma W_i W_s \cos\varphi \right) $$
-//!
-//! n_d is 1 for reflection; for transmission it is the index of the substrate, and the wave from
-//! the detector has unit electric field there. Light from the substrate side is the same problem
-//! turned over: all indices and the wavelength divided by n, the films reversed, and the signs
-//! of the off-diagonal elements turned.
+//! $$ C = \sigma \frac{\pi}{\lambda^2} (\varepsilon_+ - \varepsilon_-), \quad
+//!    \varepsilon^2 = \varepsilon_- \varepsilon_+ $$
 //!
 //! J. M. Elson, *Multilayer-coated optics: guided-wave coupling and scattering by means of
 //! interface random roughness*, J. Opt. Soc. Am. A 12, 729 (1995), by transfer matrices.
@@ -26,74 +14,45 @@ use std::f64::consts::PI;
 use num_complex::Complex64;
 
 use crate::{
-    Direction, Incidence, Jones, Side,
+    Direction, Incidence, Jones,
     models::Common,
-    optics::film::{Fields, Films, Wave},
+    optics::{
+        film::{Fields, Wave},
+        first_order::{Drive, FirstOrder},
+    },
 };
 
 /// A film stack with the optical contrast of its interfaces.
 pub(super) struct Interfaces {
-    films: Films,
+    stack: FirstOrder,
+    /// As the light leaves them: the last one is met first.
     contrasts: Vec<Contrast>,
-    detector: Detector,
-    /// σ(π/λ²)√n_d.
-    scale: f64,
-    turned_over: bool,
 }
 
 struct Contrast {
-    /// ε₊ − ε₋.
-    difference: Complex64,
+    /// C.
+    coupling: Complex64,
     /// 1/(ε₋ε₊).
     inverse_product: Complex64,
-}
-
-#[derive(Clone, Copy)]
-struct Detector {
-    from: Wave,
-    /// n_d.
-    index: f64,
-    /// σ.
-    sign: f64,
-}
-
-/// The source's fields at one interface times what does not depend on the direction.
-#[derive(Clone, Copy)]
-struct Drive {
-    e: Complex64,
-    w: Complex64,
-    d: Complex64,
 }
 
 impl Interfaces {
     /// The interfaces of `films`, (index, thickness µm) with the one next to the substrate first.
     pub(super) fn new(common: &Common, films: &[(Complex64, f64)]) -> Self {
-        let turned_over = common.side.from_below();
-        let transmits = matches!(common.side, Side::DownDown | Side::UpUp);
-        let (films, substrate, lambda) = if turned_over {
-            let n = common.substrate.re;
-            let films = films.iter().rev().map(|&(index, t)| (index / n, t)).collect();
-            (films, Complex64::from(1.0 / n), common.lambda / n)
-        } else {
-            (films.to_vec(), common.substrate, common.lambda)
-        };
-        let detector = if transmits {
-            Detector { from: Wave::FromSubstrate, index: substrate.re, sign: 1.0 }
-        } else {
-            Detector { from: Wave::FromOutside, index: 1.0, sign: -1.0 }
-        };
-        Self {
-            contrasts: contrasts(substrate, &films),
-            films: Films::new(&films, Complex64::ONE, substrate, lambda),
-            detector,
-            scale: detector.sign * PI / (lambda * lambda) * detector.index.sqrt(),
-            turned_over,
+        let stack = FirstOrder::new(common.side, films, common.substrate, common.lambda);
+        let mut media = vec![common.substrate];
+        media.extend(films.iter().map(|&(index, _)| index));
+        media.push(Complex64::ONE);
+        if stack.is_turned_over() {
+            media.reverse();
         }
-    }
-
-    /// The number of interfaces: one more than films.
-    pub(super) fn len(&self) -> usize {
-        self.contrasts.len()
+        let scale = stack.sign() * PI / (stack.lambda() * stack.lambda());
+        let contrast = |pair: &[Complex64]| {
+            let [below, above] = [0, 1].map(|j| (pair[j] / stack.unit()).powi(2));
+            Contrast { coupling: (above - below) * scale, inverse_product: 1.0 / (above * below) }
+        };
+        let contrasts = media.windows(2).map(contrast).collect();
+        Self { stack, contrasts }
     }
 
     /// Calls `each` with the position of every direction and the amplitudes per √PSD of all
@@ -104,66 +63,27 @@ impl Interfaces {
         directions: &[Direction],
         mut each: impl FnMut(usize, &[Jones]),
     ) {
-        let mut fields = vec![Fields::default(); self.len()];
+        let count = self.contrasts.len();
+        let mut fields = vec![Fields::default(); count];
         let drives = self.drives(incidence, &mut fields);
-        let mut jones = vec![Jones::default(); self.len()];
+        let mut jones = vec![Jones::default(); count];
         for (place, direction) in directions.iter().enumerate() {
-            let kappa = Complex64::from(self.detector.index * direction.sin);
-            self.films.fields_at_interfaces(self.detector.from, kappa, &mut fields);
-            let pairs = drives.iter().zip(&fields);
-            if self.turned_over {
-                for (j, (drive, field)) in jones.iter_mut().rev().zip(pairs) {
-                    *j = drive.scatter(field, direction, self.detector).flipped();
-                }
-            } else {
-                for (j, (drive, field)) in jones.iter_mut().zip(pairs) {
-                    *j = drive.scatter(field, direction, self.detector);
-                }
+            let (from, kappa) = self.stack.kappa_out(direction);
+            self.stack.films().fields_at_interfaces(from, kappa, &mut fields);
+            for (m, (drive, seen)) in drives.iter().zip(&fields).enumerate() {
+                let from_substrate = if self.stack.is_turned_over() { count - 1 - m } else { m };
+                jones[from_substrate] = self.stack.scatter(drive, seen, direction);
             }
             each(place, &jones);
         }
     }
 
     fn drives(&self, incidence: &Incidence, fields: &mut [Fields]) -> Vec<Drive> {
-        self.films.fields_at_interfaces(Wave::FromOutside, incidence.sin.into(), fields);
-        let scale = self.scale / incidence.cos.sqrt();
+        let kappa = self.stack.kappa_in(incidence);
+        self.stack.films().fields_at_interfaces(Wave::FromOutside, kappa, fields);
         let drive = |(field, contrast): (&Fields, &Contrast)| {
-            let c = contrast.difference * scale;
-            Drive {
-                e: c * field.e,
-                w: c * field.w,
-                d: c * field.u * incidence.sin * contrast.inverse_product,
-            }
+            self.stack.drive(incidence, field, contrast.coupling, contrast.inverse_product)
         };
         fields.iter().zip(&self.contrasts).map(drive).collect()
-    }
-}
-
-/// The contrasts from the substrate outwards.
-fn contrasts(substrate: Complex64, films: &[(Complex64, f64)]) -> Vec<Contrast> {
-    let inside = films.iter().map(|&(index, _)| index);
-    let mut below = substrate * substrate;
-    let mut all = Vec::with_capacity(films.len() + 1);
-    for index in inside.chain([Complex64::ONE]) {
-        let above = index * index;
-        all.push(Contrast { difference: above - below, inverse_product: 1.0 / (above * below) });
-        below = above;
-    }
-    all
-}
-
-impl Drive {
-    fn scatter(&self, seen: &Fields, direction: &Direction, detector: Detector) -> Jones {
-        let Detector { index, sign, .. } = detector;
-        let scale = 1.0 / direction.cos.sqrt();
-        let (c, s) = (direction.cos_phi * scale, direction.sin_phi * scale);
-        let w = seen.w * (sign * index);
-        let d = seen.u * (index * index * direction.sin * scale);
-        Jones {
-            ss: self.e * seen.e * c,
-            ps: self.w * seen.e * -s,
-            sp: self.e * w * s,
-            pp: self.d * d + self.w * w * c,
-        }
     }
 }

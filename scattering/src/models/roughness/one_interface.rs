@@ -8,11 +8,11 @@
 //! J. M. Elson, *Multilayer-coated optics: guided-wave coupling and scattering by means of
 //! interface random roughness*, J. Opt. Soc. Am. A 12, 729 (1995).
 
-use super::{ROUGHNESS, Rough, coherent::Coherent};
+use super::{ROUGHNESS, Rough, STACK, coherent::Coherent};
 use crate::{
     ParamError,
     models::{Brdf, COMMON},
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Laws, Param, Spec},
     stack::Stack,
 };
 
@@ -24,7 +24,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         summary: "One rough interface in a stack of films",
         equation: "F = PSD M(J_m)",
         source: "elson-1995",
-        params: &[COMMON, ROUGHNESS, OWN],
+        params: &[COMMON, ROUGHNESS, STACK, OWN],
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
@@ -40,10 +40,8 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
 };
 
-const OWN: &[Param] = &[
-    Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
-    Param::integer("this_layer", "0", "The rough interface; 0 is the face of the substrate"),
-];
+const OWN: &[Param] =
+    &[Param::integer("this_layer", "0", "The rough interface; 0 is the face of the substrate")];
 
 #[cfg(test)]
 mod tests {

@@ -1,0 +1,83 @@
+//! Small spheres below the lower face of a film stack.
+//!
+//! $$ \mathbf{F} = \frac{N}{\cos\theta_i \cos\theta_s}\,\mathbf{M}(\mathbf{J}), \quad
+//!    J_{ss} = \alpha E_i E_s \cos\varphi, \ldots $$
+//!
+//! N is the `density`, α the polarizability, E the fields at the `distance` below the face of
+//! the substrate (`small_sphere.rs`). NIST's library adds a loss of 10⁻¹⁰ to light that comes
+//! from the substrate's side ([`Defect::TinyLoss`]).
+//!
+//! T. A. Germer, *Angular dependence and polarization of out-of-plane optical scattering from
+//! particulate contamination, subsurface defects, and surface microroughness*, Appl. Opt. 36,
+//! 8798 (1997); *Polarized light scattering by microroughness and small defects in dielectric
+//! layers*, J. Opt. Soc. Am. A 18, 1279 (2001).
+
+use super::{
+    LOCAL,
+    small_sphere::{Place, SmallSphere, total},
+};
+use crate::{
+    Defect, ParamError, Side,
+    models::{Brdf, COMMON, Common},
+    spec::{Class, Family, Laws, Param, Spec},
+    stack::Stack,
+};
+
+/// How programs name, parameterize and build it.
+pub const SPEC: Spec<dyn Brdf> = Spec {
+    class: Class {
+        name: "Rayleigh_Defect_BRDF_Model",
+        parent: "Local_BRDF_Model",
+        summary: "Small spheres in the substrate, below its films",
+        equation: "F = density/(cos_i cos_s) M(J), J = alpha E_i E_s",
+        source: "germer-1997 germer-2001-layers",
+        params: &[
+            COMMON,
+            LOCAL,
+            &[
+                Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
+                Param::number("radius", "0.001", "um", "Radius of the sphere"),
+                Param::number("distance", "0", "um", "Depth of the centre in the substrate"),
+                Param::index("defect", "(1,0)", "Index of the sphere"),
+            ],
+        ],
+        laws: Laws::NOT_PASSIVE,
+    },
+    build: |node| {
+        let common = Common::read(node)?;
+        let films = node.member::<Stack>("stack")?.at(common.lambda);
+        let distance = node.number("distance");
+        if !(distance >= 0.0 && distance.is_finite()) {
+            let problem = format!("{distance} um is not a depth in the substrate");
+            return Err(ParamError::new("distance", problem));
+        }
+        let place = Place { depth: total(&films) + distance, medium: common.substrate };
+        let defect = node.index("defect").at(common.lambda);
+        let sphere = SmallSphere::new(node, common, &films, place, defect)?;
+        let lossy = common.side != Side::DownUp && node.reproduces(Defect::TinyLoss);
+        Ok(Box::new(if lossy { sphere.with_tiny_loss(&films, distance) } else { sphere }))
+    },
+};
+
+#[cfg(test)]
+mod tests {
+    use crate::{Basis, Geometry, Mode, Node, models, optics::Index, spec::Value};
+
+    #[test]
+    fn the_loss_of_light_from_the_substrate_is_compats_and_tiny() {
+        let at = Geometry { theta_i: 0.5, theta_s: 0.9, phi_s: 0.7, rotation: 0.0 };
+        for (side, expected) in [(0, 0.0), (1, 1e-10), (2, 1e-10), (3, 1e-10)] {
+            let [sound, compat] = [Mode::Sound, Mode::Compat].map(|mode| {
+                let node = Node::with_defaults(&super::SPEC.class, mode)
+                    .with("substrate", Value::Index(Index::constant(1.5, 0.0)))
+                    .and_then(|n| n.with("distance", Value::Number(0.2)))
+                    .and_then(|n| n.with("type", Value::Integer(side)))
+                    .unwrap();
+                models::build(&node).unwrap().mueller(&at, Basis::Psps)
+            });
+            let difference = (sound - compat).largest() / sound.largest();
+            // The loss is 10⁻¹⁰ of the index; what it does depends on the angle.
+            assert!(difference <= 30.0 * expected && difference >= expected / 30.0, "{difference}");
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! A sphere much smaller than the wavelength, anywhere in, above or below a stack of films.
+//!
+//! Its dipole moment is the perturbation of [`FirstOrder`] with the permittivity ε_p of the
+//! sphere, ε_m of the medium around it, its radius r and
+//!
+//! $$ C = r^3 \frac{\varepsilon_p - \varepsilon_m}{\varepsilon_p + 2\varepsilon_m}
+//!        \left(\frac{2\pi}{\lambda}\right)^2 \varepsilon_m, \quad \varepsilon = \varepsilon_m $$
+//!
+//! The sphere does not see its own light come back from the interfaces.
+//!
+//! T. A. Germer, *Polarized light scattering by microroughness and small defects in dielectric
+//! layers*, J. Opt. Soc. Am. A 18, 1279 (2001).
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use crate::{
+    Direction, Incidence, Jones, Mueller, Node, ParamError,
+    models::{Brdf, Common},
+    optics::{
+        film::{Fields, Films, Wave},
+        first_order::{Drive, FirstOrder},
+    },
+};
+
+/// Where a sphere is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Depth of its centre below the outer face of the films, µm.
+    pub depth: f64,
+    /// Index of the medium around it.
+    pub medium: Complex64,
+}
+
+/// NIST's reflection of light from the substrate ([`Defect::TinyLoss`](crate::Defect::TinyLoss))
+/// at a sphere in the substrate.
+struct Lossy {
+    films: Films,
+    /// Distance of the sphere from the face of the substrate, µm.
+    distance: f64,
+}
+
+/// Small spheres, all in the same place.
+pub(super) struct SmallSphere {
+    common: Common,
+    stack: FirstOrder,
+    /// Depth in the stack as the light meets it, µm.
+    depth: f64,
+    /// C√density.
+    coupling: Complex64,
+    inverse_product: Complex64,
+    lossy: Option<Lossy>,
+}
+
+impl SmallSphere {
+    /// Spheres of index `sphere` and the node's `radius` and `density` among `films`.
+    pub(super) fn new(
+        node: &Node,
+        common: Common,
+        films: &[(Complex64, f64)],
+        place: Place,
+        sphere: Complex64,
+    ) -> Result<Self, ParamError> {
+        let radius = not_negative(node, "radius")?;
+        let density = not_negative(node, "density")?;
+        let stack = FirstOrder::new(common.side, films, common.substrate, common.lambda);
+        let depth = if stack.is_turned_over() { total(films) - place.depth } else { place.depth };
+        let [inside, around] = [sphere, place.medium].map(|index| (index / stack.unit()).powi(2));
+        let k = TAU / stack.lambda();
+        let dipole = (inside - around) / (inside + 2.0 * around) * radius.powi(3);
+        Ok(Self {
+            common,
+            depth,
+            coupling: dipole * around * (k * k * density.sqrt()),
+            inverse_product: 1.0 / (around * around),
+            stack,
+            lossy: None,
+        })
+    }
+
+    /// The same for a sphere at `distance` in the substrate, with NIST's loss at its face.
+    pub(super) fn with_tiny_loss(self, films: &[(Complex64, f64)], distance: f64) -> Self {
+        let Common { lambda, substrate, .. } = self.common;
+        let films = Films::new(films, Complex64::ONE, substrate, lambda).with_tiny_loss();
+        Self { lossy: Some(Lossy { films, distance }), ..self }
+    }
+
+    /// Fields at the sphere for a wave with this sine of its angle and this tangential index.
+    fn fields(&self, from: Wave, sin: f64, kappa: Complex64) -> Fields {
+        let films = self.stack.films();
+        let (own_side, index) = if self.stack.is_turned_over() {
+            (Wave::FromOutside, films.outer())
+        } else {
+            (Wave::FromSubstrate, films.substrate())
+        };
+        match &self.lossy {
+            Some(lossy) if from == own_side => lossy.fields(sin, index, self.stack.lambda()),
+            _ => films.fields_at_depth(from, kappa, self.depth),
+        }
+    }
+
+    fn drive(&self, incidence: &Incidence) -> Drive {
+        let kappa = self.stack.kappa_in(incidence);
+        let fields = self.fields(Wave::FromOutside, incidence.sin, kappa);
+        self.stack.drive(incidence, &fields, self.coupling, self.inverse_product)
+    }
+
+    fn amplitude(&self, drive: &Drive, direction: &Direction) -> Jones {
+        let (from, kappa) = self.stack.kappa_out(direction);
+        let seen = self.fields(from, direction.sin, kappa);
+        self.stack.scatter(drive, &seen, direction)
+    }
+}
+
+impl Lossy {
+    /// Fields of a unit wave from the sphere's own medium, of index `index` at the wavelength
+    /// `lambda`, and of its reflection.
+    fn fields(&self, sin: f64, index: Complex64, lambda: f64) -> Fields {
+        let r = self.films.r21(self.films.kappa_inside(sin));
+        let cos = (1.0 - sin * sin).sqrt();
+        let back = (Complex64::I * index * (TAU / lambda * self.distance * cos)).exp();
+        let forth = 1.0 / back;
+        Fields {
+            e: forth + r.s * back,
+            u: forth + r.p * back,
+            w: (forth - r.p * back) * (cos / index),
+        }
+    }
+}
+
+impl Brdf for SmallSphere {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
+        self.amplitude(&self.drive(incidence), direction).mueller()
+    }
+
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        let drive = self.drive(incidence);
+        for (m, direction) in out.iter_mut().zip(directions) {
+            *m = self.amplitude(&drive, direction).mueller();
+        }
+    }
+
+    fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
+        Some(self.amplitude(&self.drive(incidence), direction))
+    }
+
+    fn is_coherent(&self) -> bool {
+        true
+    }
+}
+
+/// The thickness of all films, µm.
+pub(super) fn total(films: &[(Complex64, f64)]) -> f64 {
+    films.iter().map(|&(_, thickness)| thickness).sum()
+}
+
+fn not_negative(node: &Node, name: &str) -> Result<f64, ParamError> {
+    let value = node.number(name);
+    if value >= 0.0 && value.is_finite() {
+        return Ok(value);
+    }
+    Err(ParamError::new(name, format!("{value} is not a finite number from 0 up")))
+}

@@ -1,0 +1,138 @@
+//! First-order scattering by a small perturbation inside a film stack, by reciprocity.
+//!
+//! The amplitude that a perturbation scatters is the bilinear form of the field that the source
+//! drives at its place and the field that a unit wave sent in from the detector would drive
+//! there. With the fields E (s) and U, W (p) of [`Films`], D = κU, σ = −1 for reflection and +1
+//! for transmission, a coupling C and a product of permittivities ε² that belong to the
+//! perturbation,
+//!
+//! $$ J_{ss} = C E_i E_s \cos\varphi, \quad J_{ps} = -C W_i E_s \sin\varphi, \quad
+//!    J_{sp} = \sigma C E_i W_s \sin\varphi, \quad
+//!    J_{pp} = C \left( \frac{D_i D_s}{\varepsilon^2} + \sigma W_i W_s \cos\varphi \right) $$
+//!
+//! times √(n_d/(cos θ_i cos θ_s)). n_d is 1 for reflection; for transmission it is the index of
+//! the substrate, and the wave from the detector has unit electric field there. Light from the
+//! substrate side is the same problem turned over: all indices and the wavelength divided by n,
+//! the films reversed, and the signs of the off-diagonal elements turned.
+//!
+//! J. M. Elson, J. Opt. Soc. Am. A 12, 729 (1995), and T. A. Germer, J. Opt. Soc. Am. A 18, 1279
+//! (2001), reach the same amplitudes by transfer matrices.
+
+use num_complex::Complex64;
+
+use super::film::{Fields, Films, Wave};
+use crate::{Direction, Incidence, Jones, Side};
+
+/// A film stack turned so that the light comes from its outer side.
+#[derive(Clone, Debug)]
+pub struct FirstOrder {
+    films: Films,
+    lambda: f64,
+    /// What the indices were divided by.
+    unit: f64,
+    /// Where the detector is.
+    from: Wave,
+    /// n_d.
+    index: f64,
+    /// σ.
+    sign: f64,
+    turned_over: bool,
+}
+
+/// The source's fields at a perturbation, times all that does not depend on the direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive {
+    e: Complex64,
+    w: Complex64,
+    d: Complex64,
+}
+
+impl FirstOrder {
+    /// The stack `films` of (index, thickness µm), the one next to the substrate first, at the
+    /// vacuum wavelength `lambda` µm. The substrate is transparent unless `side` is reflection
+    /// from outside.
+    pub fn new(side: Side, films: &[(Complex64, f64)], substrate: Complex64, lambda: f64) -> Self {
+        let turned_over = side.from_below();
+        let unit = if turned_over { substrate.re } else { 1.0 };
+        let mut films: Vec<_> = films.iter().map(|&(index, t)| (index / unit, t)).collect();
+        let substrate = if turned_over {
+            films.reverse();
+            Complex64::from(1.0 / unit)
+        } else {
+            substrate
+        };
+        let lambda = lambda / unit;
+        let films = Films::new(&films, Complex64::ONE, substrate, lambda);
+        let (from, index, sign) = match side {
+            Side::DownUp | Side::UpDown => (Wave::FromOutside, 1.0, -1.0),
+            Side::DownDown | Side::UpUp => (Wave::FromSubstrate, substrate.re, 1.0),
+        };
+        Self { films, lambda, unit, from, index, sign, turned_over }
+    }
+
+    /// The films as the light meets them.
+    pub fn films(&self) -> &Films {
+        &self.films
+    }
+
+    /// The wavelength where the light comes from, µm.
+    pub fn lambda(&self) -> f64 {
+        self.lambda
+    }
+
+    /// What every index is divided by: the index of the medium the light comes from.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    /// Whether the films stand in reverse order.
+    pub fn is_turned_over(&self) -> bool {
+        self.turned_over
+    }
+
+    /// σ: −1 for reflection, +1 for transmission.
+    pub fn sign(&self) -> f64 {
+        self.sign
+    }
+
+    /// Tangential index of the incident wave.
+    pub fn kappa_in(&self, incidence: &Incidence) -> Complex64 {
+        incidence.sin.into()
+    }
+
+    /// Tangential index of the wave from the detector, and the side it comes from.
+    pub fn kappa_out(&self, direction: &Direction) -> (Wave, Complex64) {
+        (self.from, (self.index * direction.sin).into())
+    }
+
+    /// What a source with these fields at the perturbation drives; `coupling` is C and
+    /// `inverse_product` 1/ε².
+    pub fn drive(
+        &self,
+        incidence: &Incidence,
+        fields: &Fields,
+        coupling: Complex64,
+        inverse_product: Complex64,
+    ) -> Drive {
+        let c = coupling * (self.index / incidence.cos).sqrt();
+        Drive {
+            e: c * fields.e,
+            w: c * fields.w,
+            d: c * fields.u * (incidence.sin * self.index * self.index) * inverse_product,
+        }
+    }
+
+    /// The amplitude whose Mueller matrix is the BRDF; `seen` are the fields of the detector.
+    pub fn scatter(&self, drive: &Drive, seen: &Fields, direction: &Direction) -> Jones {
+        let scale = 1.0 / direction.cos.sqrt();
+        let (c, s) = (direction.cos_phi * scale, direction.sin_phi * scale);
+        let w = seen.w * (self.sign * self.index);
+        let jones = Jones {
+            ss: drive.e * seen.e * c,
+            ps: drive.w * seen.e * -s,
+            sp: drive.e * w * s,
+            pp: drive.d * seen.u * (direction.sin * scale) + drive.w * w * c,
+        };
+        if self.turned_over { jones.flipped() } else { jones }
+    }
+}
