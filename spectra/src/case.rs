@@ -21,6 +21,7 @@
 //! Other fields are notes and ignored, unless they look like a slip for one of these.
 
 mod fields;
+mod light;
 mod request;
 
 use std::fmt::Display;
@@ -120,7 +121,7 @@ pub struct RgbResult {
 /// At the first case that cannot be computed.
 pub fn evaluate(request: &Value) -> Result<Response, CaseError> {
     let whole = Fields::new("", "", request)?;
-    let illuminants = request::read_illuminants(whole)?;
+    let illuminants = light::read_illuminants(whole)?;
     let one = std::slice::from_ref(request);
     let cases = whole.list("cases")?.unwrap_or(one);
     let results = cases.iter().enumerate().map(|(index, value)| {

@@ -200,14 +200,21 @@ fn filter_weights(
     }
     let mueller: Vec<_> = fine_wavelengths().map(|nm| stack_mueller(filters, nm)).collect();
     [0, 1, 2, 3].map(|out| {
-        [0, 1, 2, 3].map(|input| {
+        let passed = [0, 1, 2, 3].map(|input| {
             let mut passed: Box<Fine> = Box::new([0.0; FINE_COUNT]);
             for (passed, mueller) in passed.iter_mut().zip(&mueller) {
                 *passed = mueller[out][input];
             }
-            let blocked = passed.iter().all(|element| *element == 0.0);
-            (!blocked).then(|| Weights::fold(grid, resampler, &sensitivity.behind(&passed)))
-        })
+            passed
+        });
+        let behind = passed.each_ref().map(|passed| sensitivity.behind(passed));
+        let mut folded = Weights::fold_each(grid, resampler, behind.each_ref()).map(Some);
+        for (weights, passed) in folded.iter_mut().zip(&passed) {
+            if passed.iter().all(|element| *element == 0.0) {
+                *weights = None;
+            }
+        }
+        folded
     })
 }
 

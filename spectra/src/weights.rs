@@ -41,11 +41,23 @@ impl Weights {
 
     /// Folds an interpolation and a sensitivity into weights.
     pub(crate) fn fold(grid: &Grid, resampler: &Resampler<'_>, to: &Sensitivity) -> Self {
-        let mut rows = vec![[0.0; 3]; grid.len()];
+        let [weights] = Self::fold_each(grid, resampler, [to]);
+        weights
+    }
+
+    /// The same for several sensitivities, with the interpolation done once.
+    pub(crate) fn fold_each<const N: usize>(
+        grid: &Grid,
+        resampler: &Resampler<'_>,
+        to: [&Sensitivity; N],
+    ) -> [Self; N] {
+        let mut each = to.map(|_| Self { rows: vec![[0.0; 3]; grid.len()] });
         for (k, column) in resampler.columns().enumerate() {
-            rows[grid.given_position(k)] = to.sum(&column);
+            for (weights, to) in each.iter_mut().zip(to) {
+                weights.rows[grid.given_position(k)] = to.sum(&column);
+            }
         }
-        Self { rows }
+        each
     }
 
     /// Weights on every other wavelength of `grid`, as weights on all of them.

@@ -114,6 +114,24 @@ fn our_illuminants_are_those_of_the_vectors() {
 }
 
 #[test]
+fn our_black_body_is_that_of_the_vectors() {
+    let reference = reference();
+    let cases = reference["cases"].as_array().unwrap();
+    let case = cases.iter().find(|case| case["id"] == "v35-bb3000-absolute").unwrap();
+    let numbers =
+        |field: &str| -> Vec<f64> { serde_json::from_value(case[field].clone()).unwrap() };
+    let light = Illuminant::planck(3000.0).unwrap();
+    let ratios = numbers("wavelengths")
+        .into_iter()
+        .zip(numbers("values"))
+        .map(|(nm, radiance)| radiance / light.fine()[nm as usize - 360]);
+    let (least, most) =
+        ratios.fold((f64::MAX, 0.0_f64), |(least, most), r| (least.min(r), most.max(r)));
+    // The same constants; c₂ of ITS-90 (1.4388e7 nm K) would give 1.2e-4.
+    assert!(most / least - 1.0 < 1e-12, "{:e}", most / least - 1.0);
+}
+
+#[test]
 fn our_matrices_are_those_of_the_vectors() {
     let reference = reference();
     let spaces = reference["meta"]["spaces"].as_object().unwrap();
