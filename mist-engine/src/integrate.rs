@@ -376,17 +376,19 @@ mod tests {
     }
 
     #[test]
-    fn grids_converge_faster_than_linearly_with_the_solid_angle_per_point() {
+    fn grids_converge_faster_than_linearly_with_their_step() {
         let model = model("Microroughness_BRDF_Model");
         let incidence = Incidence::new(0.4, 0.0);
         let reflectance = |differential| {
             let sampling = sampling(2, differential, Apertures::Exact);
-            let layout = Layout::new(&circle((0.4, 0.1), 0.4), &sampling).unwrap();
+            let layout = Layout::new(&circle((0.6, 2.5), 0.3), &sampling).unwrap();
             integrate(&model, &incidence, Basis::Psps, &layout, &|| false).unwrap()[(0, 0)]
         };
+        // Away from the specular peak, where the integrand is smooth on the scale of the grids.
         let finest = reflectance(3e-6);
         let error = |differential: f64| (reflectance(differential) / finest - 1.0).abs();
-        assert!(error(1e-4) < 1e-2 * error(1e-2), "{} {}", error(1e-4), error(1e-2));
+        // A rim cut by a square grid makes errors of about h^1.5: 0.03 for a tenth of the step.
+        assert!(error(1e-4) < 0.05 * error(1e-2), "{} {}", error(1e-4), error(1e-2));
     }
 
     #[test]

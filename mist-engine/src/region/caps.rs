@@ -53,7 +53,7 @@ impl Cap {
         let (q, p) = self.across();
         let (b, c) = (self.sin * q.dot(other.axis), self.sin * p.dot(other.axis));
         let cosine = (other.cos - self.cos * self.axis.dot(other.axis)) / b.hypot(c);
-        if !(cosine.abs() < 1.0) {
+        if cosine.is_nan() || cosine.abs() >= 1.0 {
             return Vec::new();
         }
         let (middle, half) = (c.atan2(b), cosine.acos());
