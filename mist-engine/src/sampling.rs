@@ -232,6 +232,7 @@ impl Plan {
             return chunk;
         }
         let range = k * CHUNK..self.points().min((k + 1) * CHUNK);
+        chunk.reserve(range.end - range.start);
         self.pattern.for_each(range, |x, y| {
             if let Some((direction, v, weight)) = self.direction(x, y) {
                 let (cos2b, sin2b) = self.turn.at(v);
@@ -266,6 +267,11 @@ impl Plan {
 }
 
 impl Chunk {
+    fn reserve(&mut self, count: u64) {
+        self.directions.reserve(count as usize);
+        self.weights.reserve(count as usize);
+    }
+
     fn push(&mut self, direction: Direction, weight: Weight) {
         self.directions.push(direction);
         self.weights.push(weight);
@@ -275,7 +281,7 @@ impl Chunk {
 /// The direction of the unit vector `v`.
 fn seen(v: DVec3) -> Direction {
     let (theta, phi) = (v.z.acos(), v.y.atan2(v.x));
-    let across = v.x.hypot(v.y);
+    let across = (v.x * v.x + v.y * v.y).sqrt();
     let (sin_phi, cos_phi) =
         if across > 0.0 { (v.y / across, v.x / across) } else { phi.sin_cos() };
     let sin = ((1.0 - v.z) * (1.0 + v.z)).max(0.0).sqrt();
