@@ -1,20 +1,71 @@
 //! Shadowing functions: the fraction of facets that is lit and seen.
 
-use crate::spec::{Family, Member, Spec};
+use crate::{
+    Direction, Incidence,
+    slope::SlopeDistribution,
+    spec::{Family, Member, ParamError, Spec},
+};
+
+pub mod maxwell_beard;
+pub mod sancer;
+pub mod smith;
+pub mod table;
+pub mod torrance_sparrow;
+pub mod unit;
 
 /// The fraction of facets that both the source and the detector see.
 pub trait Shadow: Send + Sync {
     /// G for the beam `incidence` (with the rotation of the sample) and the exit `direction`.
-    fn fraction(&self, incidence: &crate::Incidence, direction: &crate::Direction) -> f64;
+    fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64;
+
+    /// Takes from the slopes of the facets what its own parameters leave open.
+    ///
+    /// # Errors
+    ///
+    /// If a parameter is left open and the slopes do not determine it.
+    fn adapt(&mut self, _: &dyn SlopeDistribution) -> Result<(), ParamError> {
+        Ok(())
+    }
 }
 
 /// All of them, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Shadow>] = &[];
+pub const ALL: &[&Spec<dyn Shadow>] = &[
+    &unit::SPEC,
+    &torrance_sparrow::SPEC,
+    &smith::SPEC,
+    &maxwell_beard::SPEC,
+    &table::SPEC,
+    &sancer::SPEC,
+];
 
 impl Member for dyn Shadow {
     const FAMILY: Family = Family::Shadow;
 
     fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
         Box::new(ALL.iter().copied())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Mode, Node, spec};
+
+    #[test]
+    fn every_fraction_is_the_same_for_the_reversed_path() {
+        for class in Family::Shadow.classes() {
+            let node = Node::with_defaults(class, Mode::Sound);
+            let mut shadow = spec::build::<dyn Shadow>(&node).unwrap();
+            let slopes = spec::find_class("Anisotropic_Gaussian_Slope_Distribution_Function");
+            let slopes = Node::with_defaults(slopes.unwrap(), Mode::Sound);
+            shadow.adapt(&*spec::build::<dyn SlopeDistribution>(&slopes).unwrap()).unwrap();
+            for (a, b, phi, r) in [(0.5, 1.2, 0.7, 0.3), (1.4, 0.1, -2.3, 1.1)] {
+                let there = shadow.fraction(&Incidence::new(a, r), &Direction::new(b, phi));
+                let turned = Incidence::new(b, r + std::f64::consts::PI - phi);
+                let back = shadow.fraction(&turned, &Direction::new(a, -phi));
+                assert!((there - back).abs() < 1e-14, "{}: {there} and {back}", class.name);
+                assert!((0.0..=1.0).contains(&there), "{}: {there}", class.name);
+            }
+        }
     }
 }

@@ -1,0 +1,55 @@
+//! Empirical shadowing and obscuration with two parameters.
+//!
+//! $$ G = \frac{1 + (\theta_n/\Omega)\,e^{-2\beta/\tau}}{1 + \theta_n/\Omega} $$
+//!
+//! θ_n is the tilt of the facet that connects the two directions, β the angle of incidence on it.
+//! All angles are in radians, the parameters too.
+//!
+//! J. R. Maxwell et al., ERIM report AFAL-TR-73-303 (1973).
+
+use super::Shadow;
+use crate::{
+    Direction, Incidence,
+    spec::{Class, Laws, Node, Param, ParamError, Spec},
+};
+
+/// How programs name, parameterize and build it.
+pub const SPEC: Spec<dyn Shadow> = Spec {
+    class: Class {
+        name: "Maxwell_Beard_Shadow_Function",
+        parent: "Shadow_Function",
+        summary: "Empirical, two parameters",
+        equation: "G = (1 + (tn/Omega) exp(-2 beta/tau))/(1 + tn/Omega)",
+        source: "maxwell-1973",
+        params: &[&[
+            Param::number("Omega", "0.7", "rad", "Scale of the facet tilt"),
+            Param::number("tau", "0.25", "rad", "Scale of the angle of incidence on the facet"),
+        ]],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        Ok(Box::new(MaxwellBeard { omega: scale(node, "Omega")?, tau: scale(node, "tau")? }))
+    },
+};
+
+fn scale(node: &Node, name: &str) -> Result<f64, ParamError> {
+    let x = node.number(name);
+    if x > 0.0 {
+        return Ok(x);
+    }
+    Err(ParamError::new(name, format!("{x} rad is not positive")))
+}
+
+struct MaxwellBeard {
+    omega: f64,
+    tau: f64,
+}
+
+impl Shadow for MaxwellBeard {
+    fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64 {
+        let h = direction.k() - incidence.k();
+        let tilt = h.x.hypot(h.y).atan2(h.z) / self.omega;
+        let beta = (0.5 * h.length()).min(1.0).acos();
+        (1.0 + tilt * (-2.0 * beta / self.tau).exp()) / (1.0 + tilt)
+    }
+}

@@ -1,0 +1,29 @@
+//! No shadowing.
+
+use super::Shadow;
+use crate::{
+    Direction, Incidence,
+    spec::{Class, Laws, Spec},
+};
+
+/// How programs name and build it.
+pub const SPEC: Spec<dyn Shadow> = Spec {
+    class: Class {
+        name: "Unit_Shadow_Function",
+        parent: "Shadow_Function",
+        summary: "No shadowing",
+        equation: "G = 1",
+        source: "torrance-1967",
+        params: &[],
+        laws: Laws::NONE,
+    },
+    build: |_| Ok(Box::new(Unit)),
+};
+
+struct Unit;
+
+impl Shadow for Unit {
+    fn fraction(&self, _: &Incidence, _: &Direction) -> f64 {
+        1.0
+    }
+}
