@@ -4,8 +4,10 @@
 
 mod check;
 mod color;
+mod compare;
 mod lex;
 mod parse;
+mod print;
 mod text;
 
 pub use check::REQUIRED_VARIABLES;
@@ -36,7 +38,10 @@ pub struct Program {
     pub color: Option<Color>,
     /// Comments in the order of the text, without the text behind the last section.
     pub comments: Vec<Comment>,
-    /// Whatever stands behind the last END; never read by anyone.
+    /// Offsets of blank lines; printing keeps one where there are some.
+    pub blank_lines: Vec<usize>,
+    /// Whatever stands behind the last END, without white space at its end; never read by
+    /// anyone.
     pub trailing: Text,
     /// Where the six sections begin and end.
     pub sections: Sections,
@@ -374,6 +379,8 @@ pub struct Comment {
     pub text: String,
     /// From the semicolon to the end of the line.
     pub span: Span,
+    /// Whether nothing stands before it in its line.
+    pub own_line: bool,
 }
 
 /// Reads a program.

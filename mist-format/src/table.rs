@@ -8,7 +8,7 @@ mod formula;
 mod list;
 
 pub use columns::ColumnTable;
-pub use formula::{Body, FormulaFile, MAX_FORMULA_ROWS, Working};
+pub use formula::{Body, FormulaFile, FormulaLoop, MAX_FORMULA_ROWS, Working};
 pub use list::{ListError, ListTable};
 
 use crate::dialect::Quirk;

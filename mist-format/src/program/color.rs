@@ -143,3 +143,14 @@ impl Color {
         labels
     }
 }
+
+impl Color {
+    pub(super) fn without_places(self) -> Self {
+        let plain = |entry: ColorEntry| ColorEntry {
+            key: entry.key,
+            name: entry.name.without_place(),
+            value: entry.value.without_place(),
+        };
+        Self { entries: self.entries.into_iter().map(plain).collect(), span: Span::default() }
+    }
+}

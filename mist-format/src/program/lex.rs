@@ -123,16 +123,13 @@ impl<'t> Reader<'t> {
         self.open_comment.map_or(Stop::End, Stop::OpenComment)
     }
 
-    /// Everything up to a byte that ends it. The place is at its first byte.
+    /// Everything up to a byte that ends it, or to a comment, which reaches to a line end.
     fn word(&mut self, ends: impl Fn(u8) -> bool) -> Text {
         let start = self.at;
-        // A comment ends a word too: it reaches to the line end.
-        while self.peek().is_some_and(|byte| !ends(byte)) {
-            self.at += 1;
-        }
-        let raw = &self.text[start..self.at];
-        let end = raw.find(';').unwrap_or(raw.len());
-        Text::new(&raw[..end], start)
+        let rest = &self.text.as_bytes()[start..];
+        let len = rest.iter().position(|byte| ends(*byte) || *byte == b';').unwrap_or(rest.len());
+        self.at += len;
+        Text::new(&self.text[start..self.at], start)
     }
 
     fn quoted(&mut self) -> Result<Token, Stop> {
@@ -176,7 +173,10 @@ impl<'t> Reader<'t> {
             };
             let text = line[1..len].trim_end_matches('\r').to_owned();
             let span = Span::new(self.at, self.at + 1 + text.len());
-            self.comments.push(Comment { text, span });
+            let before = &self.text[..self.at];
+            let line = &before[before.rfind('\n').map_or(0, |at| at + 1)..];
+            let own_line = line.trim().is_empty();
+            self.comments.push(Comment { text, span, own_line });
             self.at += len;
         }
         bytes.get(self.at).copied()

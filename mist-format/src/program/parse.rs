@@ -89,9 +89,8 @@ impl<'t> Parser<'t> {
         let outputs = self.outputs(&mut sections)?;
         let files = self.files(&mut sections)?;
         let color = self.color(&mut sections)?;
-        let rest = self.reader.rest();
-        let trailing = Text::new(rest, self.reader.at());
-        let comments = Vec::new();
+        let trailing = Text::new(self.reader.rest().trim_end(), self.reader.at());
+        let (comments, blank_lines) = (Vec::new(), blank_lines(self.text));
         Ok(Program {
             model,
             variables,
@@ -101,6 +100,7 @@ impl<'t> Parser<'t> {
             files,
             color,
             comments,
+            blank_lines,
             trailing,
             sections,
         })
@@ -666,6 +666,19 @@ impl<'t> Parser<'t> {
 
 fn is(text: &Text, word: &str) -> bool {
     text.as_str().eq_ignore_ascii_case(word)
+}
+
+/// Where the blank lines of a text begin.
+fn blank_lines(text: &str) -> Vec<usize> {
+    let mut start = 0;
+    let mut found = Vec::new();
+    for line in text.split_inclusive('\n') {
+        if line.trim().is_empty() {
+            found.push(start);
+        }
+        start += line.len();
+    }
+    found
 }
 
 /// Label and expression of an output, parted at the first `=`.

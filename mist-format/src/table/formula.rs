@@ -34,20 +34,24 @@ pub enum Body {
         columns: Expr,
     },
     /// A loop that makes the rows.
-    Loop {
-        /// The loop variable.
-        variable: String,
-        /// First value.
-        from: Expr,
-        /// Last value.
-        to: Expr,
-        /// Step.
-        by: Expr,
-        /// Intermediate results, in order.
-        working: Vec<Working>,
-        /// The columns of a row, from the first on.
-        values: Vec<Expr>,
-    },
+    Loop(Box<FormulaLoop>),
+}
+
+/// The loop of a formula file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FormulaLoop {
+    /// The loop variable.
+    pub variable: String,
+    /// First value.
+    pub from: Expr,
+    /// Last value.
+    pub to: Expr,
+    /// Step.
+    pub by: Expr,
+    /// Intermediate results, in order.
+    pub working: Vec<Working>,
+    /// The columns of a row, from the first on.
+    pub values: Vec<Expr>,
 }
 
 /// An intermediate result of a loop.
@@ -118,9 +122,8 @@ impl FormulaFile {
         &self,
         parameter: impl Fn(&str) -> Option<f64>,
     ) -> Result<Option<ColumnTable>, TableError> {
-        let Body::Loop { variable, from, to, by, working, values } = &self.body else {
-            return Ok(None);
-        };
+        let Body::Loop(each) = &self.body else { return Ok(None) };
+        let FormulaLoop { variable, from, to, by, working, values } = &**each;
         let mut names = self.names(parameter);
         let number = |expr: &Expr, names: &HashMap<&str, f64>| {
             evaluate(expr, names).map(|value| value.number())
@@ -248,7 +251,7 @@ impl<'t> Words<'t> {
         if values.len() < 2 {
             return Err(self.expected("two columns or more behind VALUES"));
         }
-        Ok(Body::Loop { variable, from, to, by, working, values })
+        Ok(Body::Loop(Box::new(FormulaLoop { variable, from, to, by, working, values })))
     }
 
     /// The error at the word read last, or at the end.
