@@ -3,8 +3,15 @@
 mod reference;
 
 use num_complex::Complex64;
-use reference::{TOLERANCE, components, number};
-use scattering::optics::film::{Films, Pair};
+use reference::{TOLERANCE, assert_close, component_node, components, number};
+use scattering::{
+    Direction, Incidence, Mode,
+    optics::film::{Films, Pair},
+    shadow::Shadow,
+    slope::SlopeDistribution,
+    spec,
+    stack::Stack,
+};
 use serde_json::Value as Json;
 
 fn complex(text: &Json) -> Complex64 {
@@ -20,8 +27,8 @@ fn films(check: &Json) -> Vec<(Complex64, f64)> {
     if text.starts_with("GradedFilm") {
         let params =
             [("start", "(2.3,0.01)"), ("end", "(1.2,0)"), ("thickness", "0.25"), ("steps", "4")];
-        let node = reference::node("GradedFilm_StackModel", &params, scattering::Mode::Compat);
-        return scattering::spec::build::<scattering::stack::Stack>(&node).unwrap().at(lambda);
+        let node = reference::node("GradedFilm_StackModel", &params, Mode::Compat);
+        return spec::build::<Stack>(&node).unwrap().at(lambda);
     }
     reference::films(text).iter().map(|f| (f.index.at(lambda), f.thickness)).collect()
 }
@@ -55,4 +62,37 @@ fn coefficients_of_stacks_agree_with_the_library() {
         let expected = Complex64::new(number(&value[0]), number(&value[1]));
         assert!((coefficient(check) - expected).norm() < TOLERANCE, "{check}");
     }
+}
+
+#[test]
+fn slope_distributions_agree_with_the_library() {
+    let checks = components("slope_distribution");
+    assert_eq!(checks.len(), 24);
+    for check in checks {
+        let slopes = spec::build::<dyn SlopeDistribution>(&component_node(check, Mode::Compat));
+        let (x, y) = (number(&check["zeta"][0]), number(&check["zeta"][1]));
+        let got = slopes.unwrap().density(x, y);
+        assert_close(got, number(&check["value"]), TOLERANCE, check);
+    }
+}
+
+#[test]
+fn shadow_functions_agree_with_the_library() {
+    let checks = components("shadow");
+    assert_eq!(checks.len(), 12);
+    for check in checks {
+        let shadow = spec::build::<dyn Shadow>(&component_node(check, Mode::Compat)).unwrap();
+        let [theta_i, theta_s, phi] = [0, 1, 2].map(|k| number(&check["angles"][k]));
+        let got = shadow.fraction(&Incidence::new(theta_i, 0.0), &Direction::new(theta_s, phi));
+        assert_close(got, number(&check["value"]), TOLERANCE, check);
+    }
+}
+
+#[test]
+fn facet_models_agree_with_the_library() {
+    reference::check(&[
+        "Facet_BRDF_Model",
+        "Shadowed_Facet_BRDF_Model",
+        "Subsurface_Facet_BRDF_Model",
+    ]);
 }

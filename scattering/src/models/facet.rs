@@ -1,7 +1,42 @@
 //! Facet models: specular reflection and refraction by tilted facets.
 
 use super::Brdf;
-use crate::spec::Spec;
+use crate::{
+    ParamError,
+    shadow::Shadow,
+    slope::SlopeDistribution,
+    spec::{Family, Node, Param, Spec},
+};
+
+pub mod bare;
+pub mod shadowed;
+pub mod subsurface;
+mod turn;
 
 /// The models of this group, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Brdf>] = &[];
+pub const ALL: &[&Spec<dyn Brdf>] = &[&bare::SPEC, &shadowed::SPEC, &subsurface::SPEC];
+
+/// The parameters of every facet model: slopes, and films on the facets.
+pub const FACET: &[Param] = &[
+    Param::member(
+        "sdf",
+        Family::Slope,
+        "Slope_Distribution_Function",
+        "Exponential_Slope_Distribution_Function",
+        "Density of facet slopes",
+    ),
+    Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films on each facet"),
+];
+
+/// The shadow function `name`, adapted to the slopes of the facets.
+fn read_shadow(
+    node: &Node,
+    name: &str,
+    slopes: &dyn SlopeDistribution,
+) -> Result<Box<dyn Shadow>, ParamError> {
+    let mut shadow = node.member::<dyn Shadow>(name)?;
+    shadow
+        .adapt(slopes)
+        .map_err(|error| ParamError::new(&format!("{name}.{}", error.parameter), error.problem))?;
+    Ok(shadow)
+}

@@ -1,0 +1,188 @@
+//! Flakes, or a rough substrate, under a smooth clear coat.
+//!
+//! $$ \mathbf F = \frac{S(\zeta_x,\zeta_y)}{4 n_z^4\cos\theta_i\cos\theta_s}\,\mathbf M(J),
+//!    \qquad J = t(\theta_s)\,J_{flake}(\theta_i',\theta_s',\phi)\,t(\theta_i) $$
+//!
+//! Primes are angles inside the coat, sin θ' = sin θ/n; n̂, its slopes and J_flake belong to them,
+//! the cosines of the prefactor are those outside. t = diag(t_s, t_p) are the coefficients from
+//! vacuum into the coat, films on the coat included; used for both crossings they carry the
+//! factors n of the radiance law. The reflection of the coat itself, light that goes back and
+//! forth between coat and flakes, what flakes transmit and shadowing are left out.
+//!
+//! NIST's library does not turn the bases of a flake met within 10⁻⁵ rad of its normal
+//! ([`Defect::FacetRetro`]).
+//!
+//! T. A. Germer and M. E. Nadal, Proc. SPIE 4447, 77 (2001); T. A. Germer and E. Marx,
+//! Appl. Opt. 43, 1266 (2004).
+
+use num_complex::Complex64;
+
+use super::{FACET, bare::turned};
+use crate::{
+    Defect, Direction, Incidence, Jones, Mueller, Node, ParamError,
+    models::{Brdf, COMMON, Common},
+    optics::film::{Films, Pair},
+    slope::SlopeDistribution,
+    spec::{Class, Family, Laws, Param, Spec},
+    stack::Stack,
+};
+
+/// The parameters of a clear coat.
+pub const OVERCOAT: &[Param] = &[
+    Param::index("overcoat", "(1.59,0)", "Index of the clear coat; its k is taken as 0"),
+    Param::member(
+        "overcoat_films",
+        Family::Stack,
+        "StackModel",
+        "No_StackModel",
+        "Films on the air side of the coat",
+    ),
+];
+
+/// How programs name, parameterize and build it.
+pub const SPEC: Spec<dyn Brdf> = Spec {
+    class: Class {
+        name: "Subsurface_Facet_BRDF_Model",
+        parent: "Facet_BRDF_Model",
+        summary: "Flakes or a rough layer under a smooth clear coat",
+        equation: "F = S(zeta') M(t_s J_flake t_i)/(4 nz'^4 cos(ti) cos(ts))",
+        source: "germer-2001 germer-2004",
+        params: &[COMMON, FACET, OVERCOAT],
+        laws: Laws::NOT_PASSIVE,
+    },
+    build: |node| Ok(Box::new(SubsurfaceFacet::read(node)?)),
+};
+
+/// Squared sine of the local angle below which the library turns nothing.
+const UNTURNED: f64 = 1e-10;
+
+/// Flakes under a clear coat.
+pub(crate) struct SubsurfaceFacet {
+    common: Common,
+    slopes: Box<dyn SlopeDistribution>,
+    coat: f64,
+    flakes: Films,
+    interface: Films,
+    unturned: bool,
+}
+
+/// A ray pair inside the coat with the coefficients of both crossings.
+struct Inside {
+    incidence: Incidence,
+    direction: Direction,
+}
+
+impl SubsurfaceFacet {
+    pub(crate) fn read(node: &Node) -> Result<Self, ParamError> {
+        let common = Common::read(node)?;
+        common.only_reflection(node.class.name)?;
+        let coat = node.index("overcoat").at(common.lambda).re;
+        if coat < 1.0 || !coat.is_finite() {
+            let problem = format!("an index of {coat} is below that of the air");
+            return Err(ParamError::new("overcoat", problem));
+        }
+        let at = |name: &str| Ok(node.member::<Stack>(name)?.at(common.lambda));
+        let (on_flakes, on_coat) = (at("stack")?, at("overcoat_films")?);
+        let (air, coat_index) = (Complex64::ONE, Complex64::from(coat));
+        Ok(Self {
+            common,
+            slopes: node.member("sdf")?,
+            coat,
+            flakes: Films::new(&on_flakes, coat_index, common.substrate, common.lambda),
+            interface: Films::new(&on_coat, air, coat_index, common.lambda),
+            unturned: node.reproduces(Defect::FacetRetro),
+        })
+    }
+
+    /// The density of the flakes' slopes.
+    pub(crate) fn slopes(&self) -> &dyn SlopeDistribution {
+        &*self.slopes
+    }
+
+    fn inside(&self, incidence: &Incidence, direction: &Direction) -> Inside {
+        let (sin_i, sin_s) = (incidence.sin / self.coat, direction.sin / self.coat);
+        Inside {
+            incidence: Incidence {
+                theta: sin_i.asin(),
+                sin: sin_i,
+                cos: (1.0 - sin_i * sin_i).sqrt(),
+                ..*incidence
+            },
+            direction: Direction {
+                theta: sin_s.asin(),
+                sin: sin_s,
+                cos: (1.0 - sin_s * sin_s).sqrt(),
+                ..*direction
+            },
+        }
+    }
+
+    /// (J, w) of the flakes alone between rays inside the coat; w lacks 1/(4 cos θ_i cos θ_s).
+    fn flakes(&self, inside: &Inside) -> (Jones, f64) {
+        let Inside { incidence, direction } = inside;
+        let (k_i, k_o) = (incidence.k(), direction.k());
+        let h = k_o - k_i;
+        let h2 = h.length_squared();
+        let sin2 = 0.25 * (k_o + k_i).length_squared();
+        let n = self.coat;
+        let coefficients = self.flakes.r12_known(n * 0.5 * h2.sqrt(), n * n * sin2);
+        let unturned = self.unturned && sin2 <= UNTURNED;
+        let (jones, norm) = turned(incidence, direction, direction.cos, coefficients, unturned);
+        let (x, y) = (h.x / h.z, h.y / h.z);
+        let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);
+        let density = self.slopes.density(x * cos + y * sin, y * cos - x * sin);
+        let z2 = h.z * h.z;
+        (jones, density * h2 * h2 / (z2 * z2 * norm))
+    }
+
+    fn crossing(&self, sin: f64) -> Pair {
+        self.interface.t12(sin.into())
+    }
+}
+
+/// `out`·J·`into` for diagonal `out` and `into`.
+pub(super) fn between(out: Pair, jones: Jones, into: Pair) -> Jones {
+    Jones {
+        ss: out.s * jones.ss * into.s,
+        ps: out.s * jones.ps * into.p,
+        sp: out.p * jones.sp * into.s,
+        pp: out.p * jones.pp * into.p,
+    }
+}
+
+impl SubsurfaceFacet {
+    /// (J, w) with the BRDF w·M(J).
+    fn event(&self, incidence: &Incidence, direction: &Direction, into: Pair) -> (Jones, f64) {
+        let (jones, weight) = self.flakes(&self.inside(incidence, direction));
+        let jones = between(self.crossing(direction.sin), jones, into);
+        (jones, weight / (4.0 * incidence.cos * direction.cos))
+    }
+}
+
+impl Brdf for SubsurfaceFacet {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
+        let (jones, weight) = self.event(incidence, direction, self.crossing(incidence.sin));
+        jones.mueller() * weight
+    }
+
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        let into = self.crossing(incidence.sin);
+        for (m, direction) in out.iter_mut().zip(directions) {
+            let (jones, weight) = self.event(incidence, direction, into);
+            *m = jones.mueller() * weight;
+        }
+    }
+
+    fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
+        let (jones, weight) = self.event(incidence, direction, self.crossing(incidence.sin));
+        Some(jones.scaled(weight.sqrt()))
+    }
+
+    fn is_coherent(&self) -> bool {
+        true
+    }
+}
