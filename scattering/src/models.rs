@@ -151,12 +151,42 @@ impl Member for dyn Brdf {
 ///
 /// What its parameters get wrong.
 pub fn build(node: &Node) -> Result<Model, ParamError> {
-    spec::build::<dyn Brdf>(node).map(|brdf| Model { brdf })
+    spec::build::<dyn Brdf>(node).map(Model::from)
+}
+
+/// The model `name` inside `node`, which must see the light of its parent on the same substrate.
+///
+/// # Errors
+///
+/// What its parameters get wrong, and a wavelength, type or substrate that is not the parent's.
+pub fn nested(node: &Node, name: &str, parent: &Common) -> Result<Box<dyn Brdf>, ParamError> {
+    let brdf = node.member::<dyn Brdf>(name)?;
+    let Common { lambda, substrate, side } = *brdf.common();
+    let differs = |parameter: &str, own: String, parents: String| {
+        let problem = format!("{own} is not {parents}, that of the model around it");
+        Err(ParamError::new(&format!("{name}.{parameter}"), problem))
+    };
+    if lambda != parent.lambda {
+        return differs("lambda", format!("{lambda} um"), format!("{} um", parent.lambda));
+    }
+    if substrate != parent.substrate {
+        return differs("substrate", substrate.to_string(), parent.substrate.to_string());
+    }
+    if side != parent.side {
+        return differs("type", side.number().to_string(), parent.side.number().to_string());
+    }
+    Ok(brdf)
 }
 
 /// A prepared model with the horizon and the bases: what users of models hold.
 pub struct Model {
     brdf: Box<dyn Brdf>,
+}
+
+impl From<Box<dyn Brdf>> for Model {
+    fn from(brdf: Box<dyn Brdf>) -> Self {
+        Self { brdf }
+    }
 }
 
 impl Model {

@@ -1,4 +1,4 @@
-//! Gauss–Legendre quadrature.
+//! Gauss–Legendre and Gauss–Radau quadrature.
 //!
 //! The nodes are the roots of P_n, found by Newton's method from the asymptotic guess
 //! cos[π(j − 1/4)/(n + 1/2)]; the weights are 2/[(1 − x²)P_n'(x)²] (Abramowitz & Stegun 25.4.29).
@@ -15,6 +15,27 @@ pub fn legendre(n: usize, a: f64, b: f64) -> Vec<(f64, f64)> {
             (middle + half * x, half * weight)
         })
         .collect()
+}
+
+/// Nodes and weights of Gauss–Radau on [a, b): the first node is a itself, `n` ≥ 1 in all.
+///
+/// The other nodes are the roots of P_{n−1} + P_n, found by Newton's method from the nodes of the
+/// Chebyshev–Radau rule; their weights are (1 − x)/[n P_{n−1}(x)]², that of a is 2/n²
+/// (Abramowitz & Stegun 25.4.31).
+pub fn radau(n: usize, a: f64, b: f64) -> Vec<(f64, f64)> {
+    const STEPS: usize = 8;
+    let (half, size) = (0.5 * (b - a), n as f64);
+    let mut rule = vec![(a, half * 2.0 / (size * size))];
+    for j in 1..n {
+        let mut x = -(2.0 * PI * j as f64 / (2.0 * size - 1.0)).cos();
+        for _ in 0..STEPS {
+            let ((p, dp), (q, dq)) = (polynomial(n - 1, x), polynomial(n, x));
+            x -= (p + q) / (dp + dq);
+        }
+        let (p, _) = polynomial(n - 1, x);
+        rule.push((a + half * (1.0 + x), half * (1.0 - x) / (size * p).powi(2)));
+    }
+    rule
 }
 
 /// ∫ f over (a, b) with `n` nodes.
@@ -55,6 +76,18 @@ mod tests {
             for degree in 0..2 * n as i32 {
                 let got = integrate(n, 0.0, 1.0, |x| x.powi(degree));
                 assert!((got - 1.0 / f64::from(degree + 1)).abs() < 1e-15, "{n} {degree}");
+            }
+        }
+    }
+
+    #[test]
+    fn radau_is_exact_up_to_degree_2n_minus_2_and_starts_at_the_end() {
+        for n in [1, 2, 3, 10] {
+            let rule = radau(n, 0.0, 1.0);
+            assert_eq!(rule[0].0, 0.0);
+            for degree in 0..2 * n as i32 - 1 {
+                let got: f64 = rule.iter().map(|(x, weight)| weight * x.powi(degree)).sum();
+                assert!((got - 1.0 / f64::from(degree + 1)).abs() < 1e-14, "{n} {degree} {got}");
             }
         }
     }
