@@ -95,10 +95,29 @@ pub fn between(
     frame_in: &Frame,
     frame_out: &Frame,
 ) -> Jones {
-    let across = perp(k_in, k_out);
-    let plane_in = Frame { first: across.cross(k_in), second: across };
-    let plane_out = Frame { first: across.cross(k_out), second: across };
-    plane_out.to(frame_out) * *amplitudes * frame_in.to(&plane_in)
+    PlaneTurn::new(k_in, k_out, frame_in, frame_out).apply(amplitudes)
+}
+
+/// The changes of basis into the scattering plane of two beams and out of it.
+#[derive(Clone, Copy, Debug)]
+pub struct PlaneTurn {
+    into: Jones,
+    out: Jones,
+}
+
+impl PlaneTurn {
+    /// Between the beams `k_in` and `k_out` in the frames given.
+    pub fn new(k_in: DVec3, k_out: DVec3, frame_in: &Frame, frame_out: &Frame) -> Self {
+        let across = perp(k_in, k_out);
+        let plane_in = Frame { first: across.cross(k_in), second: across };
+        let plane_out = Frame { first: across.cross(k_out), second: across };
+        Self { into: frame_in.to(&plane_in), out: plane_out.to(frame_out) }
+    }
+
+    /// A matrix given in (∥, ⊥) in the frames of the beams.
+    pub fn apply(&self, amplitudes: &Jones) -> Jones {
+        self.out * *amplitudes * self.into
+    }
 }
 
 /// The medium around a particle at one wavelength.

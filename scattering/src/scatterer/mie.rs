@@ -65,6 +65,11 @@ impl Mie {
     pub fn series(&self) -> &Series {
         &self.series
     }
+
+    /// Its series, without the rest.
+    pub fn into_series(self) -> Series {
+        self.series
+    }
 }
 
 impl Round for Mie {

@@ -1,0 +1,186 @@
+//! Phase matrix of a suspension of homogeneous spheres of many sizes.
+//!
+//! $$ P = \frac{\sum_j w_j\,M(\mathrm{diag}(S_2, S_1))_j}{k^2 \sum_j w_j C_{sca,j}}, \qquad
+//!    \kappa_s = \sum_j w_j C_{sca,j}, \qquad \kappa_a = \sum_j w_j (C_{ext} - C_{sca})_j $$
+//!
+//! over the diameters d_j = start·(1+step)^j ≤ end with w_j = n(d_j) d_j·step. k is the wave number
+//! in the medium. `--compat` divides both coefficients by the square of the medium's index.
+//!
+//! D. Deirmendjian, *Electromagnetic Scattering on Spherical Polydispersions* (Elsevier, 1969).
+
+use num_complex::Complex64;
+
+use super::PolarizedPhase;
+use crate::{
+    Defect, Mueller, Node,
+    scatterer::{
+        FREE_SPACE, Round, Surroundings,
+        mie::Mie,
+        series::{AngularFunctions, Series, terms},
+    },
+    size::{self, VolumeSize},
+    spec::{Class, Family, Laws, Param, ParamError, Spec},
+};
+
+/// How programs name, parameterize and build a [`DistributedMie`] phase matrix.
+pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
+    class: Class {
+        name: "Distributed_Mie_Phase_Function",
+        parent: "Polarized_Phase_Function",
+        summary: "Suspension of homogeneous spheres of many sizes",
+        equation: "P = sum(w M(diag(S2,S1)))/(k^2 sum(w Csca)), kappa_s = sum(w Csca)",
+        source: "deirmendjian-1969",
+        params: &[&[
+            FREE_SPACE[0],
+            Param::index("medium", "(1.33,0)", "Index of the surrounding medium"),
+            Param::index("sphere", "(1,0)", "Index of the spheres"),
+            Param::member(
+                "distribution",
+                Family::VolumeSize,
+                "VolumeParticleSizeDistribution",
+                "Regular_VolumeParticleSizeDistribution",
+                "Number of spheres per volume and diameter",
+            ),
+            Param::number("integralStart", "0.1", "um", "Smallest diameter"),
+            Param::number("integralEnd", "100", "um", "Largest diameter"),
+            Param::number("integralStep", "0.01", "1", "Step of the diameter over the diameter"),
+        ]],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(DistributedMie::read(node)?)),
+};
+
+/// The most terms of all series together: 1 GB of them.
+const MOST_TERMS: usize = 30_000_000;
+
+/// A suspension of spheres of many sizes.
+struct DistributedMie {
+    /// Spheres with their numbers per volume.
+    spheres: Vec<(f64, Series)>,
+    /// Terms of the longest series.
+    longest: usize,
+    /// 1/(k² Σ w C_sca).
+    norm: f64,
+    absorption: f64,
+    scattering: f64,
+}
+
+impl DistributedMie {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let around = Surroundings::read(node)?;
+        let m = around.relative_index(node, "sphere")?;
+        let numbers = node.member::<dyn VolumeSize>("distribution")?;
+        let k = around.wave_number();
+        let (mut spheres, mut longest) = (Vec::new(), 0);
+        let (mut scattering, mut absorption) = (0.0, 0.0);
+        for (d, width) in ladder(node, k)? {
+            let number = numbers.density(d) * width;
+            if number == 0.0 {
+                continue;
+            }
+            let sphere = Mie::homogeneous(node, around, m, 0.5 * d);
+            let cross = sphere.cross_sections().expect("a Mie sphere has cross-sections");
+            scattering += number * cross.scattering;
+            // Lossless spheres absorb a rounding error.
+            absorption += number * (cross.extinction - cross.scattering).max(0.0);
+            longest = longest.max(sphere.series().len());
+            spheres.push((number, sphere.into_series()));
+        }
+        if !(scattering > 0.0) {
+            return Err(ParamError::new("distribution", "no sphere of these diameters scatters"));
+        }
+        let norm = 1.0 / (k * k * scattering);
+        let n = around.medium.re;
+        let scale = if node.reproduces(Defect::SpherePhaseMedium) { 1.0 / (n * n) } else { 1.0 };
+        let (absorption, scattering) = (scale * absorption, scale * scattering);
+        Ok(Self { spheres, longest, norm, absorption, scattering })
+    }
+}
+
+/// Diameters with their widths, unless they are too many.
+fn ladder(node: &Node, k: f64) -> Result<impl Iterator<Item = (f64, f64)> + use<>, ParamError> {
+    let [start, end, step] =
+        ["integralStart", "integralEnd", "integralStep"].map(|name| node.number(name));
+    if !size::is_ladder(start, end, step) {
+        let problem = format!("{start} um to {end} um in steps of {step} is no range of diameters");
+        return Err(ParamError::new("integralStep", problem));
+    }
+    let rungs = || size::ladder(start, end, step);
+    let mut total = 0;
+    for (d, _) in rungs() {
+        total += terms(0.5 * k * d);
+        if total > MOST_TERMS {
+            return Err(ParamError::new("integralEnd", "too many and too large spheres"));
+        }
+    }
+    Ok(rungs())
+}
+
+impl PolarizedPhase for DistributedMie {
+    fn at_cosine(&self, cos: f64) -> Mueller {
+        let angular: Vec<_> = AngularFunctions::new(cos).take(self.longest).collect();
+        let (mut across, mut along, mut product) = (0.0, 0.0, Complex64::ZERO);
+        for (number, series) in &self.spheres {
+            let (s1, s2) = series.amplitudes_from(&angular);
+            across += number * s1.norm_sqr();
+            along += number * s2.norm_sqr();
+            product += number * s2 * s1.conj();
+        }
+        let (p, l) = (0.5 * (along + across), 0.5 * (along - across));
+        let (d, v) = (product.re, product.im);
+        Mueller([[p, l, 0.0, 0.0], [l, p, 0.0, 0.0], [0.0, 0.0, d, v], [0.0, 0.0, -v, d]])
+            * self.norm
+    }
+
+    fn absorption(&self) -> f64 {
+        self.absorption
+    }
+
+    fn scattering(&self) -> f64 {
+        self.scattering
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use super::*;
+    use crate::{Mode, Value, spec, special::gauss};
+
+    fn build(mode: Mode) -> Result<Box<dyn PolarizedPhase>, ParamError> {
+        let node = Node::with_defaults(&SPEC.class, mode)
+            .with("integralEnd", Value::Number(3.0))?
+            .with("integralStep", Value::Number(0.1))?;
+        spec::build::<dyn PolarizedPhase>(&node)
+    }
+
+    #[test]
+    fn the_integral_over_all_directions_is_one() {
+        let phase = build(Mode::Sound).unwrap();
+        let total =
+            gauss::integrate(200, 0.0, PI, |t| TAU * t.sin() * phase.at_cosine(t.cos())[(0, 0)]);
+        assert!((total - 1.0).abs() < 1e-12, "{total}");
+    }
+
+    #[test]
+    fn compat_divides_the_coefficients_by_the_square_of_the_index() {
+        let (sound, compat) = (build(Mode::Sound).unwrap(), build(Mode::Compat).unwrap());
+        // Recurrences of the largest spheres start lower in compat: 1e-7 of the cross-section.
+        assert!((sound.scattering() / compat.scattering() / (1.33 * 1.33) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn ranges_that_would_not_end_are_refused() {
+        for (name, value, blamed) in [
+            ("integralStep", 0.0, "integralStep"),
+            ("integralStart", -1.0, "integralStep"),
+            ("integralEnd", 1e9, "integralEnd"),
+        ] {
+            let node = Node::with_defaults(&SPEC.class, Mode::Sound)
+                .with(name, Value::Number(value))
+                .unwrap();
+            assert_eq!((SPEC.build)(&node).err().unwrap().parameter, blamed);
+        }
+    }
+}
