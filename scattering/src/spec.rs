@@ -338,7 +338,8 @@ impl ParamError {
         Self { parameter: name.to_owned(), problem: problem.into() }
     }
 
-    fn inside(mut self, parent: &str) -> Self {
+    /// The same error seen from the class whose parameter `parent` the instance is.
+    pub fn inside(mut self, parent: &str) -> Self {
         self.parameter = format!("{parent}.{}", self.parameter);
         self
     }

@@ -17,6 +17,11 @@ fn complex(json: &Json) -> Complex64 {
 }
 
 #[test]
+fn models_of_particles_agree_with_the_library() {
+    reference::check(&["Subsurface_Particle_BRDF_Model", "Double_Interaction_BRDF_Model"]);
+}
+
+#[test]
 fn amplitudes_and_cross_sections_of_spheres_agree_with_the_library() {
     let checks = components("spherical_scatterer");
     assert_eq!(checks.len(), 18);

@@ -3,14 +3,24 @@
 use super::Brdf;
 use crate::spec::{Param, Spec};
 
+pub mod double_interaction;
 pub mod one_layer;
+mod paths;
+pub mod polydisperse_sphere;
 pub mod rayleigh_defect;
 pub mod rayleigh_stack;
 mod small_sphere;
+pub mod subsurface_particle;
 
 /// The models of this group, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Brdf>] =
-    &[&rayleigh_defect::SPEC, &rayleigh_stack::SPEC, &one_layer::SPEC];
+pub const ALL: &[&Spec<dyn Brdf>] = &[
+    &rayleigh_defect::SPEC,
+    &rayleigh_stack::SPEC,
+    &one_layer::SPEC,
+    &subsurface_particle::SPEC,
+    &double_interaction::SPEC,
+    &polydisperse_sphere::SPEC,
+];
 
 /// The parameter of models that multiply the cross-section of a particle by their number.
 pub const LOCAL: &[Param] =

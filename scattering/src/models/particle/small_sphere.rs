@@ -159,7 +159,8 @@ pub(super) fn total(films: &[(Complex64, f64)]) -> f64 {
     films.iter().map(|&(_, thickness)| thickness).sum()
 }
 
-fn not_negative(node: &Node, name: &str) -> Result<f64, ParamError> {
+/// The number `name`, which has to be finite and not negative.
+pub(super) fn not_negative(node: &Node, name: &str) -> Result<f64, ParamError> {
     let value = node.number(name);
     if value >= 0.0 && value.is_finite() {
         return Ok(value);

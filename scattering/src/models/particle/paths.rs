@@ -1,0 +1,260 @@
+//! The paths that light takes by way of a particle and the face of a substrate.
+//!
+//! Light comes to the particle straight or after a reflection, and leaves it straight or by way
+//! of a reflection: four paths that interfere,
+//!
+//! $$ \mathbf{J} = \mathbf{t}_o e^{i\phi h} \left[ \mathbf{S}(k_i,k_s)
+//!    + \mathbf{S}(k_i^r,k_s)\,\mathbf{r}_i + \mathbf{r}_s\,\mathbf{S}(k_i,k_s^r)
+//!    + \mathbf{r}_s\,\mathbf{S}(k_i^r,k_s^r)\,\mathbf{r}_i \right] \mathbf{t}_i $$
+//!
+//! k^r is k mirrored at the face, h the distance of the particle from it; r carry the phase of
+//! their detour. Transmissions t enter where the light crosses the face.
+
+use glam::{DMat3, DVec3};
+use num_complex::Complex64;
+
+use crate::{
+    Direction, Incidence, Jones, Node, ParamError,
+    optics::film::Pair,
+    polarization::Frame,
+    scatterer::{PlaneTurn, Scatterer},
+    spec::Param,
+};
+
+/// The parameters that turn a particle.
+pub(super) const ORIENTATION: [Param; 2] = [
+    Param::number("alpha", "0", "rad", "First Euler angle of the particle"),
+    Param::number("beta", "0", "rad", "Second Euler angle of the particle"),
+];
+
+/// A beam with its s and p vectors.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beam {
+    pub k: DVec3,
+    pub frame: Frame,
+}
+
+impl Beam {
+    /// The beam along `k` with the vectors of psps.
+    pub(super) fn new(k: DVec3) -> Self {
+        Self { k, frame: Frame::psps(k) }
+    }
+
+    /// The beam mirrored at the face: the same s, p = k × s.
+    fn mirrored(&self) -> Self {
+        let k = DVec3::new(self.k.x, self.k.y, -self.k.z);
+        let first = self.frame.first;
+        Self { k, frame: Frame { first, second: k.cross(first) } }
+    }
+
+    fn turned(&self, turn: &DMat3) -> Self {
+        let Frame { first, second } = self.frame;
+        Self { k: *turn * self.k, frame: Frame { first: *turn * first, second: *turn * second } }
+    }
+}
+
+/// A reflection on the way, with the phase of the detour per µm of distance from the face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounce {
+    pub r: Pair,
+    pub phase: f64,
+}
+
+impl Bounce {
+    fn at(&self, distance: f64) -> Pair {
+        let turn = Complex64::cis(self.phase * distance);
+        Pair { s: self.r.s * turn, p: self.r.p * turn }
+    }
+}
+
+/// One of the four paths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Path {
+    /// No reflection.
+    Straight,
+    /// The light is reflected before it meets the particle.
+    Before,
+    /// The light is reflected after it met the particle.
+    After,
+    /// Both.
+    Both,
+}
+
+impl Path {
+    pub(super) const ALL: [Self; 4] = [Self::Straight, Self::Before, Self::After, Self::Both];
+}
+
+/// What the light meets on its paths, for one pair of directions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Paths {
+    pub incoming: Beam,
+    pub outgoing: Beam,
+    pub before: Option<Bounce>,
+    pub after: Option<Bounce>,
+    /// Crossing of the face on the way in.
+    pub t_in: Pair,
+    /// Crossing of the face on the way out.
+    pub t_out: Pair,
+    /// Real factor of all paths, with 1/k of the medium of the particle.
+    pub scale: f64,
+    /// Phase of all paths per µm of distance.
+    pub phase: f64,
+}
+
+impl Paths {
+    /// Paths that cross no face and bounce nowhere, scattered in a medium of wave number `k`.
+    pub(super) fn new(incoming: DVec3, outgoing: DVec3, k: f64) -> Self {
+        let one = Pair { s: Complex64::ONE, p: Complex64::ONE };
+        Self {
+            incoming: Beam::new(incoming),
+            outgoing: Beam::new(outgoing),
+            before: None,
+            after: None,
+            t_in: one,
+            t_out: one,
+            scale: 1.0 / k,
+            phase: 0.0,
+        }
+    }
+
+    /// The beams that the particle sees on a path.
+    fn beams(&self, path: Path) -> (Beam, Beam) {
+        let (i, s) = (self.incoming, self.outgoing);
+        match path {
+            Path::Straight => (i, s),
+            Path::Before => (i.mirrored(), s),
+            Path::After => (i, s.mirrored()),
+            Path::Both => (i.mirrored(), s.mirrored()),
+        }
+    }
+
+    /// Whether light goes this way.
+    pub(super) fn is_open(&self, path: Path) -> bool {
+        match path {
+            Path::Straight => true,
+            Path::Before => self.before.is_some(),
+            Path::After => self.after.is_some(),
+            Path::Both => self.before.is_some() && self.after.is_some(),
+        }
+    }
+
+    /// Cosines of the scattering angle with an even and with an odd number of reflections.
+    pub(super) fn cosines(&self) -> [f64; 2] {
+        let (straight, mirrored) = (self.incoming, self.incoming.mirrored());
+        [straight, mirrored].map(|beam| beam.k.dot(self.outgoing.k).clamp(-1.0, 1.0))
+    }
+
+    /// The turns into and out of the scattering plane of a path.
+    pub(super) fn plane_turn(&self, path: Path) -> PlaneTurn {
+        let (i, s) = self.beams(path);
+        PlaneTurn::new(i.k, s.k, &i.frame, &s.frame)
+    }
+
+    /// J with M(J) the differential cross-section, at a distance from the face, of a particle
+    /// with the matrix `scatter(path)`.
+    pub(super) fn jones(&self, distance: f64, scatter: impl Fn(Path) -> Jones) -> Jones {
+        let before = self.before.map(|bounce| bounce.at(distance));
+        let after = self.after.map(|bounce| bounce.at(distance));
+        let mut total = scatter(Path::Straight);
+        if let Some(r) = before {
+            total = total + first(r, scatter(Path::Before));
+        }
+        if let Some(r) = after {
+            let mut rest = scatter(Path::After);
+            if let Some(earlier) = before {
+                rest = rest + first(earlier, scatter(Path::Both));
+            }
+            total = total + last(r, rest);
+        }
+        let common = Complex64::from_polar(self.scale, self.phase * distance);
+        last(self.t_out, first(self.t_in, total)) * common
+    }
+}
+
+/// J after the diagonal matrix `d`.
+fn first(d: Pair, j: Jones) -> Jones {
+    Jones { ss: j.ss * d.s, ps: j.ps * d.p, sp: j.sp * d.s, pp: j.pp * d.p }
+}
+
+/// The diagonal matrix `d` after J.
+fn last(d: Pair, j: Jones) -> Jones {
+    Jones { ss: j.ss * d.s, ps: j.ps * d.s, sp: j.sp * d.p, pp: j.pp * d.p }
+}
+
+/// Whether a path has an odd number of reflections, as an index of [`Paths::cosines`].
+pub(super) fn parity(path: Path) -> usize {
+    usize::from(matches!(path, Path::Before | Path::After))
+}
+
+/// A particle in its orientation.
+pub(super) struct Placed {
+    particle: Box<dyn Scatterer>,
+    euler: DMat3,
+}
+
+impl Placed {
+    /// The particle with the node's `alpha` and `beta`.
+    pub(super) fn read(node: &Node, particle: Box<dyn Scatterer>) -> Result<Self, ParamError> {
+        let angle = |name| {
+            let value = node.number(name);
+            let problem = || ParamError::new(name, format!("{value} is not an angle"));
+            if value.is_finite() { Ok(value.sin_cos()) } else { Err(problem()) }
+        };
+        let ((sin_a, cos_a), (sin_b, cos_b)) = (angle("alpha")?, angle("beta")?);
+        let euler = DMat3::from_cols(
+            DVec3::new(cos_a * cos_b, -cos_b * sin_a, sin_b),
+            DVec3::new(sin_a, cos_a, 0.0),
+            DVec3::new(-cos_a * sin_b, sin_a * sin_b, cos_b),
+        );
+        Ok(Self { particle, euler })
+    }
+
+    /// J with M(J) the differential cross-section in µm²/sr.
+    pub(super) fn jones(&self, paths: &Paths, incidence: &Incidence, distance: f64) -> Jones {
+        if let Some(round) = self.particle.round() {
+            let [even, odd] = paths.cosines();
+            let bounces = paths.before.is_some() || paths.after.is_some();
+            let straight = round.amplitudes(even);
+            let reflected = if bounces { round.amplitudes(odd) } else { straight };
+            return paths.jones(distance, |path| {
+                paths.plane_turn(path).apply(&[straight, reflected][parity(path)])
+            });
+        }
+        let turn = self.euler * rotation(incidence);
+        paths.jones(distance, |path| {
+            let (i, s) = paths.beams(path);
+            let (i, s) = (i.turned(&turn), s.turned(&turn));
+            self.particle.jones(i.k, s.k, &i.frame, &s.frame)
+        })
+    }
+}
+
+/// From the laboratory to the frame of the sample.
+fn rotation(incidence: &Incidence) -> DMat3 {
+    let (s, c) = (incidence.sin_rotation, incidence.cos_rotation);
+    DMat3::from_cols(DVec3::new(c, -s, 0.0), DVec3::new(s, c, 0.0), DVec3::Z)
+}
+
+/// The geometry moved away from the specular, retro and, if `normal`, normal directions, as
+/// NIST's library does ([`Defect::Nudge`](crate::Defect::Nudge)).
+pub(super) fn nudged(
+    incidence: &Incidence,
+    direction: &Direction,
+    normal: bool,
+) -> (Incidence, Direction) {
+    const NEAR: f64 = 1e-5;
+    const STEP: f64 = 2.5e-5;
+    let (mut theta_i, mut theta_s) = (incidence.theta, direction.theta);
+    for sign in [-1.0, 1.0] {
+        if (theta_i.sin() + sign * theta_s.sin() * direction.cos_phi).abs() < NEAR {
+            theta_i += STEP;
+        }
+    }
+    if normal && theta_i.abs() < NEAR {
+        theta_i = NEAR;
+    }
+    if normal && theta_s.abs() < NEAR {
+        theta_s = NEAR;
+    }
+    (Incidence::new(theta_i, incidence.rotation), Direction::new(theta_s, direction.phi))
+}
