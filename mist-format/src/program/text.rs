@@ -1,5 +1,6 @@
 //! A word of a program together with the place where it stands.
 
+use crate::diagnostic::{Diagnostic, Note};
 use crate::span::Span;
 
 /// A text taken from a program.
@@ -54,11 +55,19 @@ impl Text {
         self.quoted
     }
 
-    /// Where a part of the text (for instance an error in an expression) stands in the program.
+    /// Where a part of the text stands in the program.
     pub fn locate(&self, part: Span) -> Span {
         let last = part.end.saturating_sub(1).max(part.start);
         let start = self.place(part.start);
         Span::new(start, if part.end > part.start { self.place(last) + 1 } else { start })
+    }
+
+    /// A finding about the text (such as an error in an expression) as one about the program.
+    pub fn diagnose(&self, found: Diagnostic) -> Diagnostic {
+        let span = self.locate(found.span);
+        let place = |note: Note| Note { span: note.span.map(|span| self.locate(span)), ..note };
+        let notes = found.notes.into_iter().map(place).collect();
+        Diagnostic { span, notes, ..found }
     }
 
     /// A part of the text that knows its own place.
