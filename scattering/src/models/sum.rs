@@ -3,5 +3,10 @@
 use super::Brdf;
 use crate::spec::Spec;
 
+pub mod four_source;
+pub mod three_source;
+pub mod two_source;
+mod weighted;
+
 /// The models of this group, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Brdf>] = &[];
+pub const ALL: &[&Spec<dyn Brdf>] = &[&two_source::SPEC, &three_source::SPEC, &four_source::SPEC];

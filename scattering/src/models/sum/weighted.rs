@@ -1,0 +1,147 @@
+//! What the sums of two, three and four models have in common.
+//!
+//! Sources do not inherit: each must have the wavelength, the type and the substrate of the sum,
+//! compared exactly. In NIST's library `Diffuse_Subsurface_BRDF_Model` sets the k of its substrate
+//! to 0 in the first evaluation, so that with an absorbing substrate the second one fails
+//! ([`Defect::SumAbsorbing`]); compat refuses at once.
+
+use crate::{
+    Basis, Defect, Direction, Incidence, Jones, Mueller, Node, ParamError,
+    geometry::propagation,
+    models::{Brdf, Common},
+    polarization::change_basis,
+    spec::{Family, Param},
+};
+
+/// The class that sets its k to 0 in NIST's library.
+const ZEROES_K: &str = "Diffuse_Subsurface_BRDF_Model";
+
+/// The parameters `factorN` and `sourceN` of one source.
+pub(super) const fn source(
+    factor: &'static str,
+    source: &'static str,
+    factor_doc: &'static str,
+    source_doc: &'static str,
+) -> [Param; 2] {
+    [
+        Param::number(factor, "1", "1", factor_doc),
+        Param::member(source, Family::Brdf, "BRDF_Model", "Microroughness_BRDF_Model", source_doc),
+    ]
+}
+
+/// One source with its weight.
+pub(super) struct Source {
+    factor: f64,
+    model: Box<dyn Brdf>,
+}
+
+impl Source {
+    /// The source number `number` of `node`.
+    pub(super) fn read(node: &Node, common: &Common, number: usize) -> Result<Self, ParamError> {
+        let (factor_name, name) = (format!("factor{number}"), format!("source{number}"));
+        let factor = node.number(&factor_name);
+        if !(factor >= 0.0 && factor.is_finite()) {
+            let problem = format!("{factor} is negative or not finite");
+            return Err(ParamError::new(&factor_name, problem));
+        }
+        let model = node.member::<dyn Brdf>(&name)?;
+        check_same(common, model.common(), &name)?;
+        let zeroes_k = node.child(&name).class.name == ZEROES_K;
+        if zeroes_k && common.substrate.im != 0.0 && node.reproduces(Defect::SumAbsorbing) {
+            let problem = "an absorbing substrate differs from that of the sum, which sees k = 0";
+            return Err(ParamError::new(&format!("{name}.substrate"), problem));
+        }
+        Ok(Self { factor, model })
+    }
+
+    /// The sources 1 to `count` of `node`.
+    pub(super) fn read_all(
+        node: &Node,
+        common: &Common,
+        count: usize,
+    ) -> Result<Vec<Self>, ParamError> {
+        (1..=count).map(|number| Self::read(node, common, number)).collect()
+    }
+
+    /// √factor times the source's Jones matrix.
+    pub(super) fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
+        Some(self.model.jones(incidence, direction)?.scaled(self.factor.sqrt()))
+    }
+
+    /// Whether [`Source::jones`] answers in the basis of the sum.
+    pub(super) fn is_coherent(&self) -> bool {
+        self.model.is_coherent() && self.model.native_basis() == Basis::Psps
+    }
+}
+
+fn check_same(sum: &Common, source: &Common, name: &str) -> Result<(), ParamError> {
+    let error = |parameter: &str, got: String, own: String| {
+        let problem = format!("{got} differs from the {own} of the sum");
+        Err(ParamError::new(&format!("{name}.{parameter}"), problem))
+    };
+    if source.lambda != sum.lambda {
+        return error("lambda", source.lambda.to_string(), sum.lambda.to_string());
+    }
+    if source.side != sum.side {
+        return error("type", source.side.number().to_string(), sum.side.number().to_string());
+    }
+    if source.substrate != sum.substrate {
+        return error("substrate", source.substrate.to_string(), sum.substrate.to_string());
+    }
+    Ok(())
+}
+
+/// Σ factor_j F_j.
+pub(super) struct Weighted {
+    pub(super) common: Common,
+    pub(super) sources: Vec<Source>,
+}
+
+impl Weighted {
+    /// The incoherent sum of `count` sources.
+    pub(super) fn read(node: &Node, count: usize) -> Result<Self, ParamError> {
+        let common = Common::read(node)?;
+        Ok(Self { common, sources: Source::read_all(node, &common, count)? })
+    }
+
+    fn to_psps(
+        &self,
+        model: &dyn Brdf,
+        m: Mueller,
+        incidence: &Incidence,
+        direction: &Direction,
+    ) -> Mueller {
+        let from = model.native_basis();
+        if from == Basis::Psps {
+            return m;
+        }
+        let (k_i, k_s) = propagation(self.common.side, incidence, direction);
+        change_basis(m, from, Basis::Psps, k_i, k_s)
+    }
+}
+
+impl Brdf for Weighted {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
+        let mut sum = Mueller::ZERO;
+        for Source { factor, model } in &self.sources {
+            let m = model.mueller(incidence, direction);
+            sum += self.to_psps(&**model, m, incidence, direction) * *factor;
+        }
+        sum
+    }
+
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        out.fill(Mueller::ZERO);
+        let mut part = vec![Mueller::ZERO; directions.len()];
+        for Source { factor, model } in &self.sources {
+            model.mueller_batch(incidence, directions, &mut part);
+            for ((sum, m), direction) in out.iter_mut().zip(&part).zip(directions) {
+                *sum += self.to_psps(&**model, *m, incidence, direction) * *factor;
+            }
+        }
+    }
+}
