@@ -20,12 +20,14 @@
 pub mod defect;
 pub mod distribution;
 pub mod geometry;
+pub mod grating;
 pub mod models;
 pub mod optics;
 pub mod phase;
 pub mod polarization;
 pub mod polarized_phase;
 pub mod psd;
+pub mod rcw;
 pub mod reflectance;
 pub mod scatterer;
 pub mod shadow;

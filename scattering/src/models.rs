@@ -13,6 +13,7 @@ use crate::{
 pub mod coating;
 pub mod diffuse;
 pub mod facet;
+pub mod grating;
 pub mod instrument;
 pub mod particle;
 pub mod roughness;
@@ -124,6 +125,7 @@ const GROUPS: &[&[&Spec<dyn Brdf>]] = &[
     sum::ALL,
     roughness::ALL,
     particle::ALL,
+    grating::ALL,
     instrument::ALL,
 ];
 

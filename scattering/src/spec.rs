@@ -44,6 +44,8 @@ pub enum Family {
     VolumeSize,
     /// Numbers of particles per area and diameter.
     SurfaceSize,
+    /// Line gratings.
+    Grating,
 }
 
 impl Family {
@@ -61,6 +63,7 @@ impl Family {
         Self::Distribution,
         Self::VolumeSize,
         Self::SurfaceSize,
+        Self::Grating,
     ];
 
     /// The name of the family's abstract base class.
@@ -78,6 +81,7 @@ impl Family {
             Self::Distribution => "Distribution",
             Self::VolumeSize => "VolumeParticleSizeDistribution",
             Self::SurfaceSize => "SurfaceParticleSizeDistribution",
+            Self::Grating => "Grating",
         }
     }
 
@@ -99,6 +103,7 @@ impl Family {
             Self::Distribution => list::<dyn crate::distribution::Distribution>(),
             Self::VolumeSize => list::<dyn crate::size::VolumeSize>(),
             Self::SurfaceSize => list::<dyn crate::size::SurfaceSize>(),
+            Self::Grating => list::<dyn crate::grating::Grating>(),
         }
     }
 }

@@ -1,0 +1,164 @@
+//! Line gratings: periodic profiles cut into lamellar slices.
+//!
+//! A grating repeats along its x axis and is uniform along y. Its slices are listed from the top
+//! down; in a slice the material depends on x alone.
+
+use num_complex::Complex64;
+
+use crate::{
+    optics::Index,
+    spec::{Family, Member, Node, Param, ParamError, Spec},
+};
+
+pub mod corner_rounded;
+pub mod dielectric_stack;
+pub mod generic;
+pub mod overlaid;
+mod pattern;
+pub mod single_line;
+pub mod sinusoidal_relief;
+pub mod sinusoidal_volume;
+pub mod triangular;
+
+pub use pattern::{Material, Pattern};
+
+/// A line grating.
+pub trait Grating: Send + Sync {
+    /// The grating at the vacuum wavelength `lambda` µm.
+    ///
+    /// # Errors
+    ///
+    /// If the materials at that wavelength do not fit together.
+    fn at(&self, lambda: f64) -> Result<Profile, ParamError>;
+}
+
+/// A grating at one wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// Period, µm.
+    pub period: f64,
+    /// Index of the medium above.
+    pub above: Complex64,
+    /// Index of the medium below.
+    pub below: Complex64,
+    /// Slices, the topmost first.
+    pub slices: Vec<Slice>,
+}
+
+/// A slice in which the material does not depend on z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slice {
+    /// Thickness, µm.
+    pub thickness: f64,
+    /// The material along x.
+    pub pattern: Pattern,
+}
+
+/// All of them, in the order they are listed to users.
+pub const ALL: &[&Spec<dyn Grating>] = &[
+    &single_line::SPEC,
+    &sinusoidal_relief::SPEC,
+    &sinusoidal_volume::SPEC,
+    &triangular::SPEC,
+    &corner_rounded::SPEC,
+    &dielectric_stack::SPEC,
+    &overlaid::SPEC,
+    &generic::SPEC,
+];
+
+impl Member for dyn Grating {
+    const FAMILY: Family = Family::Grating;
+
+    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
+        Box::new(ALL.iter().copied())
+    }
+}
+
+/// The parameters of [`Common`]: the first group of every line grating.
+pub const COMMON: &[Param] = &[
+    Param::number("period", "1", "um", "Period"),
+    Param::index("medium_i", "(1,0)", "Index of the medium above"),
+    Param::index("medium_t", "(4.05,0.05)", "Index of the medium below"),
+];
+
+/// What every line grating has.
+#[derive(Clone, Debug)]
+pub struct Common {
+    /// Period, µm.
+    pub period: f64,
+    /// The medium above.
+    pub above: Index,
+    /// The medium below.
+    pub below: Index,
+}
+
+impl Common {
+    /// Reads the common parameters of `node`.
+    ///
+    /// # Errors
+    ///
+    /// If the period is not positive.
+    pub fn read(node: &Node) -> Result<Self, ParamError> {
+        Ok(Self {
+            period: positive(node, "period")?,
+            above: node.index("medium_i").clone(),
+            below: node.index("medium_t").clone(),
+        })
+    }
+
+    /// The profile with these slices; neighbours with the same pattern become one slice.
+    pub fn profile(&self, lambda: f64, slices: impl IntoIterator<Item = Slice>) -> Profile {
+        let mut merged: Vec<Slice> = Vec::new();
+        for slice in slices {
+            match merged.last_mut() {
+                Some(last) if last.pattern == slice.pattern => last.thickness += slice.thickness,
+                _ => merged.push(slice),
+            }
+        }
+        Profile {
+            period: self.period,
+            above: self.above.at(lambda),
+            below: self.below.at(lambda),
+            slices: merged,
+        }
+    }
+}
+
+/// The number `name`, if it is finite and > 0.
+pub(crate) fn positive(node: &Node, name: &str) -> Result<f64, ParamError> {
+    let x = node.number(name);
+    if x > 0.0 && x.is_finite() {
+        return Ok(x);
+    }
+    Err(ParamError::new(name, format!("{x} is not greater than 0")))
+}
+
+/// The number `name`, if it is finite and ≥ 0.
+pub(crate) fn not_negative(node: &Node, name: &str) -> Result<f64, ParamError> {
+    let x = node.number(name);
+    if x >= 0.0 && x.is_finite() {
+        return Ok(x);
+    }
+    Err(ParamError::new(name, format!("{x} is not 0 or greater")))
+}
+
+/// The number `name`, if it is finite.
+pub(crate) fn finite(node: &Node, name: &str) -> Result<f64, ParamError> {
+    let x = node.number(name);
+    if x.is_finite() {
+        return Ok(x);
+    }
+    Err(ParamError::new(name, format!("{x} is not a finite number")))
+}
+
+/// Most slices a grating is cut into: beyond it the matrices would fill the memory.
+const MOST_LEVELS: i32 = 10_000;
+
+/// The integer `name` as a number of slices, at least `least`.
+pub(crate) fn levels(node: &Node, name: &str, least: i32) -> Result<usize, ParamError> {
+    let n = node.integer(name);
+    if (least..=MOST_LEVELS).contains(&n) {
+        return Ok(n.unsigned_abs() as usize);
+    }
+    Err(ParamError::new(name, format!("{n} is not from {least} to {MOST_LEVELS}")))
+}

@@ -1,0 +1,153 @@
+//! Trapezoidal line whose corners are arcs.
+//!
+//! With sidewall angle θ, radii r_t at the top and r_b at the foot, the half profile is, from
+//! the edge of the flat top outwards (X from 0 to a₆),
+//!
+//! $$ Y = \begin{cases} H - r_t + \sqrt{r_t^2 - X^2} & X < a_2 \\
+//! (a_6 - a_4 + a_5 - X)\tan\theta & X < a_2 + a_3 \\
+//! r_b - \sqrt{r_b^2 - (a_6 - X)^2} & \text{else} \end{cases} $$
+//!
+//! a₂ = r_t sin θ, a₄ = r_b sin θ, a₅ = r_b(1 − cos θ) cot θ,
+//! a₃ = (H − (r_t + r_b)(1 − cos θ)) cot θ, a₁ = w/2 − a₃ − a₂ − a₅, a₆ = a₂ + a₃ + a₄. Levels are
+//! cut at equal steps of X. Sidewalls beyond 90° (overhanging) are refused.
+//!
+//! M. G. Moharam, D. A. Pommet, E. B. Grann, T. K. Gaylord, J. Opt. Soc. Am. A 12, 1077 (1995),
+//! for profiles as stacks of lamellar slices.
+
+use super::{
+    COMMON, Common, Grating, Material, Pattern, Profile, Slice, levels, not_negative, positive,
+};
+use crate::{
+    optics::Index,
+    spec::{Class, Laws, Node, Param, ParamError, Spec},
+};
+
+const OWN: &[Param] = &[
+    Param::index("material", "(4.05,0.05)", "Index of the line"),
+    Param::number("height", "0.1", "um", "Height of the line"),
+    Param::number("width", "0.1", "um", "Width of the line at its foot, without the arcs"),
+    Param::number("sidewall", "88", "deg", "Angle of the sidewall, up to 90"),
+    Param::number("radiusb", "0.01", "um", "Radius of the arcs at the foot"),
+    Param::number("radiust", "0.001", "um", "Radius of the arcs at the top"),
+    Param::integer("nlevels", "10", "Number of slices"),
+];
+
+/// How programs name, parameterize and build a [`CornerRounded`].
+pub const SPEC: Spec<dyn Grating> = Spec {
+    class: Class {
+        name: "Corner_Rounded_Grating",
+        parent: "Grating",
+        summary: "Trapezoidal line with rounded corners",
+        equation: "arc of radiust, straight sidewall, arc of radiusb",
+        source: "moharam-1995b",
+        params: &[COMMON, OWN],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(CornerRounded::read(node)?)),
+};
+
+/// A line with rounded corners.
+#[derive(Clone, Debug)]
+pub struct CornerRounded {
+    common: Common,
+    material: Index,
+    /// Half width and thickness of every level, the topmost first.
+    levels: Vec<(f64, f64)>,
+}
+
+impl CornerRounded {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let common = Common::read(node)?;
+        let outline = Outline::read(node, common.period)?;
+        let levels = outline.levels(levels(node, "nlevels", 2)?);
+        Ok(Self { common, material: node.index("material").clone(), levels })
+    }
+}
+
+/// The half profile of the line.
+struct Outline {
+    height: f64,
+    top_radius: f64,
+    foot_radius: f64,
+    tan: f64,
+    /// Half width of the flat top.
+    flat: f64,
+    /// Widths of the upper arc, the sidewall and the lower arc.
+    arc: f64,
+    wall: f64,
+    foot: f64,
+    /// Height over width of the lower arc's end, a₅.
+    foot_rise: f64,
+}
+
+impl Outline {
+    fn read(node: &Node, period: f64) -> Result<Self, ParamError> {
+        let sidewall = node.number("sidewall");
+        if !(sidewall > 0.0 && sidewall <= 90.0) {
+            let problem = format!("{sidewall} is not above 0 and up to 90");
+            return Err(ParamError::new("sidewall", problem));
+        }
+        let (sin, cos) = sidewall.to_radians().sin_cos();
+        let (tan, cot) = (sin / cos, cos / sin);
+        let (height, width) = (positive(node, "height")?, positive(node, "width")?);
+        let (rt, rb) = (not_negative(node, "radiust")?, not_negative(node, "radiusb")?);
+        let (arc, foot, foot_rise) = (rt * sin, rb * sin, rb * (1.0 - cos) * cot);
+        let wall = (height - (rt + rb) * (1.0 - cos)) * cot;
+        let flat = 0.5 * width - wall - arc - foot_rise;
+        if wall < 0.0 {
+            return Err(ParamError::new("height", "the arcs are higher than the line"));
+        }
+        if flat < 0.0 {
+            return Err(ParamError::new("width", "sidewalls and arcs are wider than the line"));
+        }
+        if flat + arc + wall + foot > 0.5 * period {
+            return Err(ParamError::new(
+                "period",
+                "the line with its arcs is wider than the period",
+            ));
+        }
+        Ok(Self { height, top_radius: rt, foot_radius: rb, tan, flat, arc, wall, foot, foot_rise })
+    }
+
+    /// Y at the distance `x` from the edge of the flat top.
+    fn y(&self, x: f64) -> f64 {
+        let end = self.arc + self.wall + self.foot;
+        if x < self.arc {
+            self.height - self.top_radius + (self.top_radius.powi(2) - x * x).sqrt()
+        } else if x < self.arc + self.wall {
+            (end - self.foot + self.foot_rise - x) * self.tan
+        } else {
+            self.foot_radius - (self.foot_radius.powi(2) - (end - x).powi(2)).sqrt()
+        }
+    }
+
+    /// `n` levels at equal steps of X, bounded by the midpoints of neighbouring heights.
+    fn levels(&self, n: usize) -> Vec<(f64, f64)> {
+        let end = self.arc + self.wall + self.foot;
+        let x = |i: usize| (i as f64 + 0.5) / n as f64 * end;
+        let y: Vec<f64> = (0..n).map(|i| self.y(x(i))).collect();
+        let middle = |i: usize| 0.5 * (y[i] + y[i + 1]);
+        (0..n)
+            .map(|i| {
+                let thickness = match i {
+                    0 => self.height - middle(0),
+                    i if i + 1 == n => middle(n - 2),
+                    i => middle(i - 1) - middle(i),
+                };
+                (self.flat + x(i), thickness)
+            })
+            .collect()
+    }
+}
+
+impl Grating for CornerRounded {
+    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+        let inside = Material::from_index(self.material.at(lambda));
+        let outside = Material::from_index(self.common.above.at(lambda));
+        let slices = self.levels.iter().map(|&(half, thickness)| Slice {
+            thickness,
+            pattern: Pattern::line(-half, half, self.common.period, inside, outside),
+        });
+        Ok(self.common.profile(lambda, slices))
+    }
+}

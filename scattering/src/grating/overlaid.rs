@@ -1,0 +1,87 @@
+//! One grating over another of the same period, moved sideways.
+//!
+//! From the top: the slices of `top` moved by +`overlay`, a uniform layer of `separation` of the
+//! medium between them, the slices of `bottom`.
+//!
+//! M. G. Moharam, D. A. Pommet, E. B. Grann, T. K. Gaylord, J. Opt. Soc. Am. A 12, 1077 (1995).
+
+use super::{COMMON, Common, Grating, Material, Pattern, Profile, Slice, finite, not_negative};
+use crate::spec::{Class, Family, Laws, Node, Param, ParamError, Spec};
+
+const fn part(name: &'static str, doc: &'static str) -> Param {
+    Param::member(name, Family::Grating, "Grating", "Single_Line_Grating", doc)
+}
+
+const OWN: &[Param] = &[
+    part("top", "The upper grating"),
+    part("bottom", "The lower grating"),
+    Param::number("overlay", "0", "um", "Shift of the upper grating along x"),
+    Param::number("separation", "0", "um", "Distance between the two"),
+];
+
+/// How programs name, parameterize and build an [`Overlaid`].
+pub const SPEC: Spec<dyn Grating> = Spec {
+    class: Class {
+        name: "Overlaid_Grating",
+        parent: "Grating",
+        summary: "One grating over another",
+        equation: "top(x - overlay) over separation over bottom(x)",
+        source: "moharam-1995b",
+        params: &[COMMON, OWN],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(Overlaid::read(node)?)),
+};
+
+/// Two gratings, one over the other.
+pub struct Overlaid {
+    common: Common,
+    top: Box<dyn Grating>,
+    bottom: Box<dyn Grating>,
+    overlay: f64,
+    separation: f64,
+}
+
+impl Overlaid {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let common = Common::read(node)?;
+        Ok(Self {
+            top: node.member::<dyn Grating>("top")?,
+            bottom: node.member::<dyn Grating>("bottom")?,
+            overlay: finite(node, "overlay")?,
+            separation: not_negative(node, "separation")?,
+            common,
+        })
+    }
+}
+
+/// An error at `name` unless what stands there is the same.
+fn same<T: PartialEq + std::fmt::Display>(name: &str, this: T, other: T) -> Result<(), ParamError> {
+    if this == other {
+        return Ok(());
+    }
+    Err(ParamError::new(name, format!("{this} differs from its neighbour, {other}")))
+}
+
+impl Grating for Overlaid {
+    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+        let period = self.common.period;
+        let top = self.top.at(lambda).map_err(|error| error.inside("top"))?;
+        let bottom = self.bottom.at(lambda).map_err(|error| error.inside("bottom"))?;
+        same("top.period", top.period, period)?;
+        same("bottom.period", bottom.period, period)?;
+        same("top.medium_i", top.above, self.common.above.at(lambda))?;
+        same("bottom.medium_i", bottom.above, top.below)?;
+        same("bottom.medium_t", bottom.below, self.common.below.at(lambda))?;
+        let between = Slice {
+            thickness: self.separation,
+            pattern: Pattern::uniform(Material::from_index(top.below), period),
+        };
+        let upper = top.slices.iter().map(|slice| Slice {
+            thickness: slice.thickness,
+            pattern: slice.pattern.shifted(self.overlay),
+        });
+        let parts = upper.chain((self.separation > 0.0).then_some(between)).chain(bottom.slices);
+        Ok(self.common.profile(lambda, parts))
+    }
+}

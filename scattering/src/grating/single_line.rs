@@ -1,0 +1,94 @@
+//! Trapezoidal line, possibly leaning.
+//!
+//! $$ -\tfrac t2 - (b-t)\tfrac h2 - oh \;\le\; x \;\le\; \tfrac t2 + (b-t)\tfrac h2 - oh $$
+//!
+//! t (`topwidth`) and b (`bottomwidth`) are the widths, o (`offset`) the shift of the bottom
+//! against the top, h the depth from 0 at the top to 1; every level takes the width at its middle.
+//!
+//! M. G. Moharam, E. B. Grann, D. A. Pommet, T. K. Gaylord, J. Opt. Soc. Am. A 12, 1068 (1995).
+
+use super::{
+    COMMON, Common, Grating, Material, Pattern, Profile, Slice, finite, levels, not_negative,
+};
+use crate::{
+    optics::Index,
+    spec::{Class, Laws, Node, Param, ParamError, Spec},
+};
+
+const OWN: &[Param] = &[
+    Param::index("material", "(4.05,0.05)", "Index of the line"),
+    Param::index("space", "(1,0)", "Index between the lines"),
+    Param::number("height", "0.2", "um", "Height of the line"),
+    Param::number("topwidth", "0.2", "um", "Width at the top"),
+    Param::number("bottomwidth", "0.2", "um", "Width at the bottom"),
+    Param::number("offset", "0", "um", "Shift of the bottom against the top"),
+    Param::integer("nlevels", "10", "Number of slices"),
+];
+
+/// How programs name, parameterize and build a [`SingleLine`].
+pub const SPEC: Spec<dyn Grating> = Spec {
+    class: Class {
+        name: "Single_Line_Grating",
+        parent: "Grating",
+        summary: "Trapezoidal line",
+        equation: "-t/2 - (b-t) h/2 - offset h < x < t/2 + (b-t) h/2 - offset h",
+        source: "moharam-1995",
+        params: &[COMMON, OWN],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(SingleLine::read(node)?)),
+};
+
+/// A trapezoidal line.
+#[derive(Clone, Debug)]
+pub struct SingleLine {
+    common: Common,
+    material: Index,
+    space: Index,
+    height: f64,
+    top: f64,
+    bottom: f64,
+    offset: f64,
+    levels: usize,
+}
+
+impl SingleLine {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let common = Common::read(node)?;
+        let width = |name: &str| -> Result<f64, ParamError> {
+            let width = not_negative(node, name)?;
+            if width <= common.period {
+                return Ok(width);
+            }
+            Err(ParamError::new(
+                name,
+                format!("{width} is wider than the period {}", common.period),
+            ))
+        };
+        Ok(Self {
+            material: node.index("material").clone(),
+            space: node.index("space").clone(),
+            height: not_negative(node, "height")?,
+            top: width("topwidth")?,
+            bottom: width("bottomwidth")?,
+            offset: finite(node, "offset")?,
+            levels: levels(node, "nlevels", 1)?,
+            common,
+        })
+    }
+}
+
+impl Grating for SingleLine {
+    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+        let line = Material::from_index(self.material.at(lambda));
+        let space = Material::from_index(self.space.at(lambda));
+        let thickness = self.height / self.levels as f64;
+        let slices = (0..self.levels).map(|level| {
+            let h = (level as f64 + 0.5) / self.levels as f64;
+            let half = 0.5 * self.top + 0.5 * (self.bottom - self.top) * h;
+            let (start, end) = (-half - self.offset * h, half - self.offset * h);
+            Slice { thickness, pattern: Pattern::line(start, end, self.common.period, line, space) }
+        });
+        Ok(self.common.profile(lambda, slices))
+    }
+}

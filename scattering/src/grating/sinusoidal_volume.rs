@@ -1,0 +1,85 @@
+//! Volume hologram: a permittivity that varies as a cosine along a tilted direction.
+//!
+//! $$ \epsilon = \frac{\epsilon_{max} + \epsilon_{min}}{2} + \frac{\epsilon_{max} - \epsilon_{min}}{2}
+//! \cos\frac{2\pi (x + H\tan\tau)}{d} $$
+//!
+//! H is the depth of a level's middle, τ (`tilt`) the tilt of the fringes.
+//!
+//! H. Kogelnik, Bell Syst. Tech. J. 48, 2909 (1969).
+
+use std::f64::consts::TAU;
+
+use super::{COMMON, Common, Grating, Pattern, Profile, Slice, levels, not_negative};
+use crate::{
+    optics::Index,
+    spec::{Class, Laws, Node, Param, ParamError, Spec},
+};
+
+const OWN: &[Param] = &[
+    Param::index("minimum", "(1.52,0)", "Index at one end of the swing"),
+    Param::index("maximum", "(1.5,0)", "Index at the other end"),
+    Param::number("thick", "0.1", "um", "Thickness"),
+    Param::number("tilt", "0", "deg", "Tilt of the fringes from the normal"),
+    Param::integer("nlevels", "1", "Number of slices"),
+];
+
+/// How programs name, parameterize and build a [`SinusoidalVolume`].
+pub const SPEC: Spec<dyn Grating> = Spec {
+    class: Class {
+        name: "Sinusoidal_Volume_Grating",
+        parent: "Grating",
+        summary: "Volume hologram",
+        equation: "eps = (emax+emin)/2 + (emax-emin)/2 cos(2 pi (x + H tan(tilt))/period)",
+        source: "kogelnik-1969",
+        params: &[COMMON, OWN],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(SinusoidalVolume::read(node)?)),
+};
+
+/// A volume hologram.
+#[derive(Clone, Debug)]
+pub struct SinusoidalVolume {
+    common: Common,
+    minimum: Index,
+    maximum: Index,
+    thickness: f64,
+    slope: f64,
+    levels: usize,
+}
+
+impl SinusoidalVolume {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let tilt = node.number("tilt");
+        if tilt.is_nan() || tilt.abs() >= 90.0 {
+            return Err(ParamError::new("tilt", format!("{tilt} is not between -90 and 90")));
+        }
+        Ok(Self {
+            common: Common::read(node)?,
+            minimum: node.index("minimum").clone(),
+            maximum: node.index("maximum").clone(),
+            thickness: not_negative(node, "thick")?,
+            slope: tilt.to_radians().tan(),
+            levels: levels(node, "nlevels", 1)?,
+        })
+    }
+}
+
+impl Grating for SinusoidalVolume {
+    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+        let (low, high) = (self.minimum.at(lambda).powi(2), self.maximum.at(lambda).powi(2));
+        let thickness = self.thickness / self.levels as f64;
+        let period = self.common.period;
+        let slices = (0..self.levels).map(|level| {
+            let depth = (level as f64 + 0.5) * thickness;
+            let pattern = Pattern::Cosine {
+                mean: 0.5 * (high + low),
+                swing: 0.5 * (high - low),
+                phase: TAU * depth * self.slope / period,
+                period,
+            };
+            Slice { thickness, pattern }
+        });
+        Ok(self.common.profile(lambda, slices))
+    }
+}

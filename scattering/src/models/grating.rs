@@ -1,0 +1,10 @@
+//! Gratings: every diffracted order is a cone of light.
+
+use super::Brdf;
+use crate::spec::Spec;
+
+pub mod line;
+mod orders;
+
+/// The models of this group, in the order they are listed to users.
+pub const ALL: &[&Spec<dyn Brdf>] = &[&line::SPEC];

@@ -1,0 +1,64 @@
+//! Line grating by rigorous coupled waves, every order a cone of light.
+//!
+//! $$ \mathbf F = \sum_i \frac{\mathbf R_i}{\pi\alpha^2\cos\theta_s} $$
+//!
+//! over the orders i within α (`alpha`) of the direction of scattering, whose lateral wave
+//! vectors are sin θ_i + (iλ/d) cos r and (iλ/d) sin r, d the period, r the rotation of the
+//! sample. Harmonics −`order`…`order` are kept. The medium above is vacuum.
+//!
+//! M. G. Moharam, E. B. Grann, D. A. Pommet, T. K. Gaylord, J. Opt. Soc. Am. A 12, 1068 (1995).
+
+use std::f64::consts::TAU;
+
+use super::orders::{ConeModel, bounded, half_angle, media, order};
+use crate::{
+    Brdf,
+    grating::Grating,
+    models::{COMMON, Common},
+    rcw::Structure,
+    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+};
+
+const OWN: &[Param] = &[
+    Param::number("alpha", "0.0175", "rad", "Half angle of the cone of every order"),
+    Param::integer("order", "25", "Highest harmonic that is kept"),
+    Param::member("grating", Family::Grating, "Grating", "Single_Line_Grating", "The grating"),
+];
+
+/// How programs name, parameterize and build the model.
+pub const SPEC: Spec<dyn Brdf> = Spec {
+    class: Class {
+        name: "RCW_BRDF_Model",
+        parent: "BRDF_Model",
+        summary: "Line grating by coupled waves, orders given a finite cone",
+        equation: "F = sum_i R_i/(pi alpha^2 cos(theta_s)) within alpha of order i",
+        source: "moharam-1995 moharam-1995b li-1996 lalanne-1996",
+        params: &[COMMON, OWN],
+        laws: Laws { realizable: true, ..Laws::NONE },
+    },
+    build: |node| {
+        let common = Common::read(node)?;
+        let structure = structure(node, &common)?;
+        Ok(Box::new(ConeModel::new(common, structure, half_angle(node)?)))
+    },
+};
+
+fn structure(node: &Node, common: &Common) -> Result<Structure, ParamError> {
+    let order = order(node, "order")?;
+    bounded("order", order.checked_mul(2))?;
+    let grating = node.member::<dyn Grating>("grating")?;
+    let profile = grating.at(common.lambda).map_err(|error| error.inside("grating"))?;
+    media(common, profile.above, profile.below)?;
+    let k0 = TAU / common.lambda;
+    let slices = profile.slices.iter().filter(|slice| slice.thickness > 0.0);
+    let last = order as isize;
+    Ok(Structure {
+        layers: slices.map(|s| s.pattern.operators(order, k0 * s.thickness)).collect(),
+        incident: 1.0,
+        behind: profile.below,
+        harmonics: (-last..=last)
+            .map(|m| (m as f64 * common.lambda / profile.period, 0.0))
+            .collect(),
+        zeroth: order,
+    })
+}

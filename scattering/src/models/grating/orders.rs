@@ -1,0 +1,171 @@
+//! Diffracted orders as cones: what line and crossed gratings share as BRDF models.
+//!
+//! $$ \mathbf F = \sum_i \frac{\mathbf R_i}{\pi\alpha^2\cos\theta_s}
+//! \quad\text{over the orders with}\quad \hat v_i\cdot\hat v \ge \cos\alpha $$
+//!
+//! R_i is the Mueller matrix of the diffraction efficiency, v_i the direction of the order, v that
+//! of scattering, α (`alpha`) the half angle of the cone in radians.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use glam::DVec3;
+use num_complex::Complex64;
+
+use crate::{
+    Direction, Incidence, Mueller, Node, ParamError, Side,
+    grating::positive,
+    models::{Brdf, Common},
+    rcw::{Structure, Wave},
+};
+
+/// Largest number of harmonics of a problem; the matrices have its square elements.
+const MOST_HARMONICS: usize = 3000;
+
+/// The order `name` of a truncation.
+pub(super) fn order(node: &Node, name: &str) -> Result<usize, ParamError> {
+    let order = node.integer(name);
+    usize::try_from(order)
+        .map_err(|_| ParamError::new(name, format!("{order} is not 0 or greater")))
+}
+
+/// An error at `name` if there are too many harmonics.
+pub(super) fn bounded(name: &str, harmonics: Option<usize>) -> Result<usize, ParamError> {
+    harmonics
+        .filter(|n| *n <= MOST_HARMONICS)
+        .ok_or_else(|| ParamError::new(name, format!("more than {MOST_HARMONICS} harmonics")))
+}
+
+/// The cone's half angle `alpha`.
+pub(super) fn half_angle(node: &Node) -> Result<f64, ParamError> {
+    let alpha = positive(node, "alpha")?;
+    if alpha <= std::f64::consts::FRAC_PI_2 {
+        return Ok(alpha);
+    }
+    Err(ParamError::new("alpha", format!("{alpha} is more than a right angle")))
+}
+
+/// Errors unless the grating lies between vacuum and the substrate.
+pub(super) fn media(common: &Common, above: Complex64, below: Complex64) -> Result<(), ParamError> {
+    if below != common.substrate {
+        let problem = format!("{below} is not the substrate's index {}", common.substrate);
+        return Err(ParamError::new("grating.medium_t", problem));
+    }
+    if above != Complex64::ONE {
+        let problem = format!("{above} is not 1: the model is lit from vacuum");
+        return Err(ParamError::new("grating.medium_i", problem));
+    }
+    Ok(())
+}
+
+/// A diffracted order as light in a cone.
+#[derive(Clone, Copy, Debug)]
+struct Cone {
+    axis: DVec3,
+    /// Efficiency over πα².
+    mueller: Mueller,
+}
+
+/// A grating whose orders are cones.
+pub(super) struct ConeModel {
+    common: Common,
+    /// The structure as the incident light meets it.
+    structure: Structure,
+    alpha: f64,
+    cos_alpha: f64,
+    recent: Mutex<Vec<Remembered>>,
+}
+
+/// Beams whose orders are kept; a run asks for a few beams many times.
+const KEPT: usize = 32;
+
+type Orders = Arc<OnceLock<Vec<Cone>>>;
+
+/// The orders of one beam, worked out by whoever asks first.
+struct Remembered {
+    theta: f64,
+    rotation: f64,
+    orders: Orders,
+}
+
+impl ConeModel {
+    /// `structure` as lit from above; it is turned over for light from the substrate.
+    pub(super) fn new(common: Common, structure: Structure, alpha: f64) -> Self {
+        let structure = if common.side.from_below() {
+            Structure {
+                layers: structure.layers.into_iter().rev().collect(),
+                incident: structure.behind.re,
+                behind: structure.incident.into(),
+                ..structure
+            }
+        } else {
+            structure
+        };
+        Self { common, structure, alpha, cos_alpha: alpha.cos(), recent: Mutex::default() }
+    }
+
+    fn orders(&self, incidence: &Incidence) -> Orders {
+        // A panic while the list was locked leaves a usable list.
+        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        let (theta, rotation) = (incidence.theta, incidence.rotation);
+        if let Some(known) = recent.iter().find(|r| r.theta == theta && r.rotation == rotation) {
+            return known.orders.clone();
+        }
+        if recent.len() == KEPT {
+            recent.remove(0);
+        }
+        let orders = Orders::default();
+        recent.push(Remembered { theta, rotation, orders: orders.clone() });
+        orders
+    }
+
+    fn cones(&self, incidence: &Incidence) -> Vec<Cone> {
+        let lateral = incidence.to_sample(self.structure.incident * incidence.sin, 0.0);
+        let normal_s = incidence.to_sample(0.0, 1.0);
+        let wave = Wave { lateral, cos: incidence.cos, normal_s };
+        let side = self.common.side;
+        let behind = matches!(side, Side::DownDown | Side::UpUp);
+        let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);
+        let scale = 1.0 / (std::f64::consts::PI * self.alpha * self.alpha);
+        self.structure
+            .diffract(&wave, behind)
+            .iter()
+            .map(|order| {
+                let (x, y) = order.lateral;
+                // Turned over, p has the other sign on both sides.
+                let jones = if side.from_below() { order.jones.flipped() } else { order.jones };
+                Cone {
+                    axis: DVec3::new(x * cos - y * sin, y * cos + x * sin, order.cos),
+                    mueller: jones.mueller() * scale,
+                }
+            })
+            .collect()
+    }
+
+    fn sum(&self, cones: &[Cone], direction: &Direction) -> Mueller {
+        let v = direction.k();
+        let mut sum = Mueller::ZERO;
+        for cone in cones.iter().filter(|cone| cone.axis.dot(v) >= self.cos_alpha) {
+            sum += cone.mueller * (1.0 / direction.cos);
+        }
+        sum
+    }
+}
+
+impl Brdf for ConeModel {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
+        let orders = self.orders(incidence);
+        self.sum(orders.get_or_init(|| self.cones(incidence)), direction)
+    }
+
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        let orders = self.orders(incidence);
+        let cones = orders.get_or_init(|| self.cones(incidence));
+        for (m, direction) in out.iter_mut().zip(directions) {
+            *m = self.sum(cones, direction);
+        }
+    }
+}

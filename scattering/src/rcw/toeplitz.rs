@@ -1,0 +1,31 @@
+//! Toeplitz matrices of Fourier coefficients.
+
+use num_complex::Complex64;
+
+use super::{Matrix, slab::solve};
+
+/// Fourier coefficients −M…M of a periodic function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series(pub Vec<Complex64>);
+
+impl Series {
+    /// The coefficient of order `m`.
+    ///
+    /// # Panics
+    ///
+    /// If it was not computed.
+    pub fn at(&self, m: isize) -> Complex64 {
+        let middle = self.0.len() / 2;
+        self.0[middle.checked_add_signed(m).expect("a computed order")]
+    }
+
+    /// The matrix c_{i−j}, `n` × `n`: multiplication by the function.
+    pub fn matrix(&self, n: usize) -> Matrix {
+        Matrix::from_fn(n, n, |i, j| self.at(i as isize - j as isize))
+    }
+}
+
+/// The inverse of `m`.
+pub fn inverse(m: &Matrix) -> Matrix {
+    solve(m, &Matrix::identity(m.nrows(), m.ncols()))
+}

@@ -1,0 +1,7 @@
+//! Gratings by coupled waves, against NIST's tables, against published efficiencies, and against
+//! the laws that hold for every grating.
+
+#[path = "grating/nist.rs"]
+mod nist;
+#[path = "grating/parts.rs"]
+mod parts;

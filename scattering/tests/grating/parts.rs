@@ -1,0 +1,56 @@
+//! How the tests write down a class and ask a model.
+
+use std::sync::Arc;
+
+use scattering::{
+    Basis, Direction, Geometry, Mode, Model, Mueller, Node, Stokes, Value, models, optics::Index,
+    spec::find_class,
+};
+
+/// The class `name` with the parameters given, the others at their defaults.
+pub(crate) fn node(name: &str, values: &[(&str, Value)]) -> Node {
+    let class = find_class(name).unwrap_or_else(|| panic!("class {name}"));
+    values.iter().fold(Node::with_defaults(class, Mode::Compat), |node, (name, value)| {
+        node.with(name, value.clone()).unwrap()
+    })
+}
+
+pub(crate) fn number(x: f64) -> Value {
+    Value::Number(x)
+}
+
+pub(crate) fn integer(i: i32) -> Value {
+    Value::Integer(i)
+}
+
+pub(crate) fn index(n: f64, k: f64) -> Value {
+    Value::Index(Index::constant(n, k))
+}
+
+pub(crate) fn text(text: &str) -> Value {
+    Value::Text(text.into())
+}
+
+pub(crate) fn member(name: &str, values: &[(&str, Value)]) -> Value {
+    Value::Member(Arc::new(node(name, values)))
+}
+
+pub(crate) fn model(name: &str, values: &[(&str, Value)]) -> Model {
+    models::build(&node(name, values)).unwrap()
+}
+
+/// The direction whose propagation vector has these lateral components.
+pub(crate) fn direction(x: f64, y: f64) -> Direction {
+    Direction::new(x.hypot(y).asin(), y.atan2(x))
+}
+
+/// BRDF times cos θ_s: what NIST calls a differential integral is its product with two vectors.
+pub(crate) fn projected(model: &Model, theta_i: f64, rotation: f64, to: &Direction) -> Mueller {
+    let at = Geometry { theta_i, theta_s: to.theta, phi_s: to.phi, rotation };
+    model.mueller(&at, Basis::Psps) * to.cos
+}
+
+/// Detector · (M · source).
+pub(crate) fn seen(m: &Mueller, source: [f64; 4], detector: [f64; 4]) -> f64 {
+    Stokes(detector).dot(&(*m * Stokes(source)))
+}
