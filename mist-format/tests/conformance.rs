@@ -1,9 +1,10 @@
 //! The conformance programs: what NIST's program runs is read, what it refuses or never
 //! finishes reading is refused in the right line.
 
-use mist_format::expr::Expr;
+use mist_format::expr::{Expr, Scope, Stack};
 use mist_format::program::{Program, VariableKind};
 use mist_format::{Dialect, LineIndex, program};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Programs that are wrong as texts, with the line (from 1) that is to blame.
@@ -124,4 +125,65 @@ fn odd_readings_are_explained_by_the_sound_dialect() {
     for code in expected {
         assert!(codes.contains(&code), "{code} is not among {codes:?}");
     }
+}
+
+/// Programs without loops and integrals: their outputs are what the evaluator makes of them.
+const EXPRESSIONS: &[&str] = &[
+    "v_lang_precedence",
+    "v_lang_unary",
+    "v_lang_whitespace",
+    "v_lang_functions",
+    "v_lang_vectors",
+    "v_lang_nan_inf",
+    "v_lang_boolean",
+];
+
+/// The values of all names an expression reads.
+struct Values<'v>(Vec<Option<&'v Vec<f64>>>);
+
+impl Scope for Values<'_> {
+    fn variable(&self, slot: u32) -> Option<&[f64]> {
+        self.0.get(slot as usize)?.map(Vec::as_slice)
+    }
+}
+
+fn evaluate(text: &str, known: &HashMap<String, Vec<f64>>) -> Vec<f64> {
+    let expr = Expr::compile(text, Dialect::Compat).unwrap_or_else(|e| panic!("{text}: {e}"));
+    let mut scope = Values(expr.names().iter().map(|name| known.get(name)).collect());
+    let value = expr.eval(&mut scope, &mut Stack::default());
+    value.unwrap_or_else(|e| panic!("{text}: {e}")).as_slice().to_vec()
+}
+
+#[test]
+fn expressions_have_nists_values() {
+    let mut count = 0;
+    for name in EXPRESSIONS {
+        let program = program::parse(&text_of(name), Dialect::Compat).expect(name);
+        let mut known = HashMap::new();
+        for variable in program.variables.iter().filter(|v| v.kind != VariableKind::Literal) {
+            let value = evaluate(variable.value.as_str(), &known);
+            known.insert(variable.name.to_string(), value);
+        }
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/conformance/programs");
+        let table = root.join(name).join("expected").join(format!("{name}.dat"));
+        let table = std::fs::read_to_string(table).expect(name);
+        let expected: Vec<f64> = table
+            .lines()
+            .nth(1)
+            .unwrap()
+            .split('\t')
+            .filter_map(|t| t.trim().parse().ok())
+            .collect();
+        assert_eq!(expected.len(), program.outputs.len(), "{name}");
+        for (output, nist) in program.outputs.iter().zip(expected) {
+            let value = evaluate(output.expression.as_str(), &known);
+            let ours = *value.last().unwrap();
+            known.insert(output.label.to_string(), value);
+            // Ten printed digits in the shortest of the tables, seventeen in the others.
+            let same = (ours - nist).abs() <= 1e-9 * nist.abs() || ours == nist;
+            assert!(same || (ours.is_nan() && nist.is_nan()), "{name} {output:?}: {ours} {nist}");
+            count += 1;
+        }
+    }
+    assert!(count > 150, "only {count} outputs");
 }

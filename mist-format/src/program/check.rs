@@ -4,6 +4,7 @@ use super::{Loop, Program, VariableKind};
 use crate::diagnostic::Diagnostic;
 use crate::span::Span;
 use crate::suggestion::did_you_mean;
+use std::collections::HashSet;
 
 /// Variables that NIST's program reads at every step; there are no defaults.
 pub const REQUIRED_VARIABLES: [&str; 5] =
@@ -60,7 +61,10 @@ fn unknown_loop_variables(program: &Program) -> Vec<Diagnostic> {
         Loop::For(each) => Some(&each.variable),
         Loop::List(_) => None,
     });
-    let unknown = fors.filter(|name| !known().any(|k| k.eq_ignore_ascii_case(name.as_str())));
+    let folded: HashSet<String> = known().map(str::to_ascii_lowercase).collect();
+    let unknown = fors
+        .filter(|name| !folded.contains(&name.as_str().to_ascii_lowercase()))
+        .take(super::parse::MAX_ERRORS);
     let found = unknown.map(|name| {
         let message = format!("invalid variable `{name}`: a loop can only change a variable");
         let with_sigil = known().find(|known| {

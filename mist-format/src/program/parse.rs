@@ -14,12 +14,13 @@ use crate::dialect::{Dialect, Quirk};
 use crate::number::{integer_prefix, is_blank};
 use crate::span::Span;
 use crate::suggestion::did_you_mean;
+use std::collections::HashMap;
 
 /// The longest text that is read as a program, in bytes.
 pub const MAX_PROGRAM_BYTES: usize = 16 << 20;
 
-/// The longest list of errors in one report.
-const MAX_ERRORS: usize = 20;
+/// The longest list of errors in one report; reading ends when it is full.
+pub(super) const MAX_ERRORS: usize = 20;
 
 /// The cues of the sections in their order.
 const CUES: [&str; 6] = ["VARIABLES:", "VARY:", "INTEGRALS:", "OUTPUTS:", "FILES:", "COLOR:"];
@@ -194,11 +195,14 @@ impl<'t> Parser<'t> {
 
     fn integrals(&mut self, sections: &mut Sections, known: &[Variable]) -> Read<Vec<Integral>> {
         let cue = self.cue(2)?;
+        let folded = |variable: &Variable| variable.name.as_str().to_ascii_lowercase();
+        let known: HashMap<String, Span> =
+            known.iter().map(|variable| (folded(variable), variable.name.span())).collect();
         let mut integrals = Vec::new();
         loop {
             match self.assignment(cue, |_| Values::Texts)? {
                 Assignment::Entry(name, word) => {
-                    self.check_integral_name(&name, known);
+                    self.check_integral_name(&name, &known);
                     let shape = self.shape(&word);
                     integrals.extend(self.integral(name, word, shape)?);
                 }
@@ -225,15 +229,14 @@ impl<'t> Parser<'t> {
         shape
     }
 
-    fn check_integral_name(&mut self, name: &Text, known: &[Variable]) {
-        let same =
-            |variable: &&Variable| variable.name.as_str().eq_ignore_ascii_case(name.as_str());
-        if let Some(variable) = known.iter().find(same) {
+    /// `known` are the places of the variables by their names in lower case.
+    fn check_integral_name(&mut self, name: &Text, known: &HashMap<String, Span>) {
+        if let Some(variable) = known.get(&name.as_str().to_ascii_lowercase()) {
             let message = format!("variable `{name}` already defined");
             self.found.push(
                 Diagnostic::error("program/integral-name", name.span(), message)
                     .help("choose another name for the integral; case does not count here")
-                    .note_at(variable.name.span(), "the variable is defined here"),
+                    .note_at(*variable, "the variable is defined here"),
             );
         }
     }
@@ -442,8 +445,14 @@ impl<'t> Parser<'t> {
         })
     }
 
+    /// Enough is enough.
+    fn check_patience(&self) -> Read<()> {
+        if self.found.len() < MAX_ERRORS { Ok(()) } else { Err(Fatal) }
+    }
+
     /// A token inside a section.
     fn section_token(&mut self, cue: Span) -> Read<Text> {
+        self.check_patience()?;
         match self.reader.token() {
             Ok(token) => {
                 self.note_swallowed_cue(&token.text, cue)?;
@@ -455,6 +464,7 @@ impl<'t> Parser<'t> {
 
     /// An assignment inside a section.
     fn assignment(&mut self, cue: Span, values: impl Fn(&str) -> Values) -> Read<Assignment> {
+        self.check_patience()?;
         let name = match self.reader.name() {
             Ok(name) => name,
             Err(stop) => return self.stopped(stop, cue),
@@ -493,10 +503,17 @@ impl<'t> Parser<'t> {
         }
         if value.as_str().starts_with('=') {
             self.refuse(Quirk::EqualsBeginsValue, value.span());
+            if value.as_str() == "=" && Quirk::EqualsBeginsValue.refused_in(self.dialect) {
+                return self.section_token(name.span());
+            }
         } else if values == Values::Expressions && open_parentheses(value.as_str()) > 0 {
             self.check_blank_in_value(&value);
         } else if is(&value, "END") || self.an_equal_sign_follows() {
             self.refuse(Quirk::EmptyValue, name.span().to(value.span()));
+            if Quirk::EmptyValue.refused_in(self.dialect) {
+                // What was no value is read again as what it is.
+                self.reader.go_to(value.span().start);
+            }
         }
         Ok(value)
     }
