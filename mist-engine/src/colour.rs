@@ -1,7 +1,11 @@
 //! From spectra to colour: the table that a renderer reads.
 //!
-//! [`table`] holds the finished table; whoever writes it to a file needs nothing else.
+//! [`section`] is the section COLOR of a program, compiled; [`fold`] gathers the steps of a run
+//! into spectra; [`table`] holds the finished table. Whoever writes it needs nothing else.
 
+pub(crate) mod fold;
+pub mod section;
 pub mod table;
 
+pub use section::ColourSection;
 pub use table::{Albedo, Axis, ColourRow, ColourTable, Layout, Patch, Symmetry};

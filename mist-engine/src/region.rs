@@ -36,7 +36,8 @@ pub enum Region {
     },
     /// Everything above the horizon.
     Hemi,
-    /// A cone without a smaller one.
+    /// A cone without a smaller one. Exact apertures take the larger of the two as the outer
+    /// one; NIST's cover what lies in exactly one of them.
     Annulus {
         /// Axis of the outer cone, also the centre of polarization.
         outer_center: Angles,
@@ -165,10 +166,10 @@ impl Region {
         }
     }
 
-    /// The exact projected solid angle (sr) above the horizon; of an annulus, that of the outer
-    /// circle without the part it shares with the inner one.
+    /// The exact projected solid angle (sr) above the horizon; of an annulus, that of the larger
+    /// circle without the part it shares with the smaller one.
     pub fn projected_solid_angle(&self) -> f64 {
-        match self {
+        match &self.ordered() {
             Self::Differential { .. } => 0.0,
             Self::Circle { center, alpha } => caps::area(&[Cap::new(*center, *alpha)]),
             Self::Hemi => std::f64::consts::PI,

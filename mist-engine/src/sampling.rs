@@ -14,6 +14,7 @@ use scattering::Direction;
 use crate::region::{Apertures, Frame, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
 
+pub mod adaptive;
 mod key;
 mod pattern;
 mod projection;
@@ -159,6 +160,14 @@ impl Layout {
     /// Whether the region is one direction.
     pub(crate) fn is_single_direction(&self) -> bool {
         matches!(self.plan.inside, Inside::One(_))
+    }
+
+    /// How many directions it has; for a layout that is not stored, at most so many.
+    pub fn directions(&self) -> usize {
+        match &self.stored {
+            Some(chunks) => chunks.iter().map(|chunk| chunk.directions.len()).sum(),
+            None => usize::try_from(self.plan.points()).unwrap_or(usize::MAX),
+        }
     }
 
     /// Memory of the stored directions, bytes.

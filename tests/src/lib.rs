@@ -1,1 +1,6 @@
-//! Tests of the whole workspace: conformance programs, reference vectors, the binary and the service.
+//! Runs whole programs and compares their tables with what NIST's MIST wrote for them.
+//!
+//! `conformance/programs/manifest.json` says how closely; see `conformance/README.md`.
+
+pub mod compare;
+pub mod corpus;

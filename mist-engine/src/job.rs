@@ -1,0 +1,177 @@
+//! The compiled job: an immutable program with its expressions bound to slots.
+
+use mist_format::{
+    Program,
+    expr::{Expr, Value},
+    number::PrintfFormat,
+    program::{Shape, Text},
+};
+use scattering::{Basis, Class, Mode, ParamError};
+
+use crate::{
+    Library, Limits,
+    fault::{Fault, fault}, colour::section::ColourSection, scope::Names, sweep::LoopPlan};
+
+/// How a program is compiled and run.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Sound physics, or NIST's numbers.
+    pub mode: Mode,
+    /// Name of the job: files that the program does not name are called after it.
+    pub job: String,
+    /// Seed of the Monte Carlo modes.
+    pub seed: u64,
+    /// What a run may cost.
+    pub limits: Limits,
+}
+
+impl Default for Options {
+    /// A sound run of a job called `job` with seed 1.
+    fn default() -> Self {
+        Self { mode: Mode::Sound, job: "job".into(), seed: 1, limits: Limits::default() }
+    }
+}
+
+/// A compiled program.
+pub struct Job {
+    pub(crate) program: Program,
+    pub(crate) options: Options,
+    pub(crate) library: Library,
+    pub(crate) class: &'static Class,
+    pub(crate) names: Names,
+    /// The parse-time values of the variables.
+    pub(crate) initial: Vec<(u32, Value)>,
+    pub(crate) entries: Vec<Entry>,
+    pub(crate) loops: Vec<LoopPlan>,
+    pub(crate) required: Required,
+    pub(crate) integrals: Vec<IntegralPlan>,
+    pub(crate) outputs: Vec<OutputPlan>,
+    pub(crate) format: PrintfFormat,
+    pub(crate) basis: Basis,
+    pub(crate) colour: Option<ColourSection>,
+    /// Slots of variables that outputs, loop columns and colours read.
+    pub(crate) reads: Vec<u32>,
+    /// Whether variables, loops or apertures read integrals or outputs of earlier steps.
+    pub(crate) in_order: bool,
+}
+
+/// One entry of VARIABLES.
+pub(crate) struct Entry {
+    /// Its slot; texts for the model have none.
+    pub(crate) slot: Option<u32>,
+    /// Position in the program's VARIABLES.
+    pub(crate) variable: usize,
+    /// What it evaluates, unless it is a text for the model.
+    pub(crate) expr: Option<Expr>,
+    /// The model parameter it sets.
+    pub(crate) parameter: Option<String>,
+}
+
+/// The required variables, read in this order at every step.
+pub(crate) struct Required {
+    pub(crate) incidentangle: u32,
+    pub(crate) differential: u32,
+    pub(crate) incidentpol: Option<(Text, Expr)>,
+    pub(crate) minsamples: u32,
+    pub(crate) rotation: u32,
+    pub(crate) integrationmode: u32,
+    pub(crate) polygonsides: u32,
+    pub(crate) pi: u32,
+    pub(crate) deg: u32,
+}
+
+/// A parameter of an integral: which it is, and its expression.
+pub(crate) struct Setting {
+    pub(crate) key: Key,
+    pub(crate) text: Text,
+    pub(crate) expr: Expr,
+}
+
+/// Parameters of integrals, of all shapes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Key {
+    Center,
+    Alpha,
+    OuterCenter,
+    InnerCenter,
+    OuterAlpha,
+    InnerAlpha,
+    Vertex,
+    PolCenter,
+    Pol,
+    InPol,
+}
+
+/// One integral.
+pub(crate) struct IntegralPlan {
+    pub(crate) slot: u32,
+    pub(crate) name: Text,
+    pub(crate) shape: Shape,
+    pub(crate) settings: Vec<Setting>,
+}
+
+/// One output.
+pub(crate) struct OutputPlan {
+    pub(crate) slot: u32,
+    pub(crate) label: String,
+    pub(crate) text: Text,
+    pub(crate) expr: Expr,
+}
+
+impl Job {
+    /// The program it was compiled from.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// The class of the model.
+    pub fn class(&self) -> &'static Class {
+        self.class
+    }
+
+    /// Name of the results file.
+    pub fn results_name(&self) -> String {
+        self.name_or(self.program.files.results(), "dat")
+    }
+
+    /// Name of the listing file.
+    pub fn listing_name(&self) -> String {
+        self.name_or(self.program.files.listing(), "lst")
+    }
+
+    /// Name of the samples file, if the program wants one.
+    pub fn samples_name(&self) -> Option<&str> {
+        self.program.files.samples().map(Text::as_str)
+    }
+
+    /// Whether steps must run one after the other, because the program feeds results back.
+    pub fn runs_in_order(&self) -> bool {
+        self.in_order
+    }
+
+    /// The colour files the program asks for: (what, name).
+    pub fn colour(&self) -> Option<&ColourSection> {
+        self.colour.as_ref()
+    }
+
+    /// A parameter that the model cannot take, at the place where the program sets it.
+    pub(crate) fn parameter_fault(&self, error: &ParamError) -> Fault {
+        let path = error.parameter.as_str();
+        let sets = |name: &str| {
+            path.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        let set_by = self
+            .entries
+            .iter()
+            .filter(|entry| entry.parameter.as_deref().is_some_and(sets))
+            .max_by_key(|entry| entry.parameter.as_ref().map_or(0, String::len));
+        let place = set_by.map_or(&self.program.model, |entry| {
+            &self.program.variables[entry.variable].value
+        });
+        fault("model/parameter", place, error.to_string())
+    }
+
+    fn name_or(&self, given: Option<&Text>, extension: &str) -> String {
+        given.map_or_else(|| format!("{}.{extension}", self.options.job), |t| t.as_str().to_owned())
+    }
+}

@@ -1,0 +1,31 @@
+//! The listing: what was run, with which parameters, and how long it took.
+
+use crate::Job;
+
+/// The line of names of a samples file.
+pub(crate) const SAMPLES_HEAD: &str = "order\tthetas\tphis\tx\ty\tz\tBRDF\n";
+
+/// Our name and the seed of the random numbers, then what NIST's program writes.
+pub(crate) fn head(job: &Job) -> String {
+    let mut text = format!(
+        "mist {}\r\nRandom seed: {}\r\n\n",
+        env!("CARGO_PKG_VERSION"),
+        job.options.seed
+    );
+    let mut line = |key: &str, value: &str| text.push_str(&format!("{key}: {value}\n"));
+    line("Integrating model", job.class.name);
+    line("Listing file", &job.listing_name());
+    line("Samples file", job.samples_name().unwrap_or("none"));
+    line("Results file", &job.results_name());
+    for header in job.program.files.headers() {
+        line("Header", header.as_str());
+    }
+    text
+}
+
+/// The last line.
+pub(crate) fn tail(seconds: f64) -> String {
+    let whole = seconds as u64;
+    let (hours, minutes, rest) = (whole / 3600, whole / 60 % 60, whole % 60);
+    format!("Elapsed time: {whole} s ({hours} hrs. {minutes} min. {rest} s)\n")
+}

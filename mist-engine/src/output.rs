@@ -1,0 +1,155 @@
+//! From the integrals of a step to a line of the results, and where lines go.
+
+use std::io;
+
+use mist_format::{
+    expr::{Expr, Stack, Value},
+    number::{general, list},
+    program::Text,
+};
+
+use crate::{
+    Job,
+    fault::{Fault, placed},
+    scope::Scope,
+    step::{Cell, Step},
+};
+
+/// Digits of loop columns; the program's `format` does not concern them.
+const LOOP_DIGITS: usize = 6;
+
+/// One of the three texts that a run writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stream {
+    /// The table: a line of names, then one line per step.
+    Results,
+    /// What was run with which parameters.
+    Listing,
+    /// Every evaluated direction.
+    Samples,
+}
+
+/// Takes the texts of a run as they are made.
+pub trait Sink {
+    /// Appends `text` to `stream`.
+    ///
+    /// # Errors
+    ///
+    /// If the text cannot be kept; the run ends.
+    fn write(&mut self, stream: Stream, text: &str) -> io::Result<()>;
+}
+
+/// Keeps the texts in memory.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MemorySink {
+    /// The table.
+    pub results: String,
+    /// The listing.
+    pub listing: String,
+    /// The samples.
+    pub samples: String,
+}
+
+impl Sink for MemorySink {
+    fn write(&mut self, stream: Stream, text: &str) -> io::Result<()> {
+        let kept = match stream {
+            Stream::Results => &mut self.results,
+            Stream::Listing => &mut self.listing,
+            Stream::Samples => &mut self.samples,
+        };
+        kept.push_str(text);
+        Ok(())
+    }
+}
+
+/// The header lines and the line of names.
+pub(crate) fn head(job: &Job) -> String {
+    let mut text = String::new();
+    for header in job.program.files.headers() {
+        text.push_str(header.as_str());
+        text.push('\n');
+    }
+    let loops = job.loops.iter().rev().flat_map(|each| each.titles());
+    for title in loops.chain(job.outputs.iter().map(|output| output.label.as_str())) {
+        text.push_str(title);
+        text.push('\t');
+    }
+    text.push('\n');
+    text
+}
+
+/// The values that outputs see: a step's variables and integrals, labels of earlier steps.
+pub(crate) struct Outputs<'j> {
+    job: &'j Job,
+    pub(crate) scope: Scope,
+    stack: Stack,
+}
+
+impl<'j> Outputs<'j> {
+    pub(crate) fn new(job: &'j Job) -> Self {
+        let scope = Scope::new(job.names.len(), job.library.clone());
+        Self { job, scope, stack: Stack::default() }
+    }
+
+    /// The line of `step`, whose integrals came out as `integrals`.
+    pub(crate) fn line(&mut self, step: &Step, integrals: &[f64]) -> Result<String, Fault> {
+        let job = self.job;
+        let predefined = [
+            (job.required.pi, 4.0 * 1f64.atan()),
+            (job.required.deg, 4.0 * 1f64.atan() / 180.0),
+        ];
+        for (slot, value) in predefined {
+            self.scope.set(slot, value.into());
+        }
+        for (slot, value) in job.reads.iter().zip(&step.values) {
+            if value.is_some() {
+                self.scope.put(*slot, value.clone());
+            }
+        }
+        for (plan, value) in job.integrals.iter().zip(integrals) {
+            self.scope.set(plan.slot, (*value).into());
+        }
+        let mut line = String::new();
+        for cell in &step.columns {
+            line.push_str(&self.cell(cell)?);
+            line.push('\t');
+        }
+        for output in &job.outputs {
+            let value = self.number_at(&output.expr, &output.text)?;
+            self.scope.set(output.slot, value.into());
+            line.push_str(&job.format.format(value));
+        }
+        line.push('\n');
+        Ok(line)
+    }
+
+    fn cell(&mut self, cell: &Cell) -> Result<String, Fault> {
+        match cell {
+            Cell::Text(text) => Ok(text.clone()),
+            Cell::Number(x) => Ok(general(*x, LOOP_DIGITS)),
+            Cell::Expression(expr) => {
+                let value: Value = self
+                    .scope
+                    .value(expr, &mut self.stack)
+                    .map_err(|error| Box::new(error.diagnostic(std::iter::empty())))?;
+                Ok(list(value.as_slice(), LOOP_DIGITS))
+            }
+        }
+    }
+
+    /// The number that `expr`, written at `place`, gives now.
+    pub(crate) fn number_at(&mut self, expr: &Expr, place: &Text) -> Result<f64, Fault> {
+        self.scope.number(expr, &mut self.stack).map_err(|error| {
+            let known: Vec<&str> = self.scope.defined().map(|s| self.job.names.name(s)).collect();
+            placed(place, error.diagnostic(known))
+        })
+    }
+
+    /// Gives integrals and labels to the scope of the next step.
+    pub(crate) fn feed_back(&self, scope: &mut Scope) {
+        let integrals = self.job.integrals.iter().map(|plan| plan.slot);
+        for slot in integrals.chain(self.job.outputs.iter().map(|output| output.slot)) {
+            scope.put(slot, self.scope.get(slot).cloned());
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! The parameters of a model as programs set them: texts by dotted names.
+//!
+//! `source1.sdf.s = 0.2` walks from the model to its first source, to its slope distribution,
+//! and sets a number there. Naming a class (`sdf = Gaussian_…`) makes a new object with
+//! defaults. The whole is persistent: a step keeps its state while later steps change theirs.
+
+mod error;
+mod films;
+mod fingerprint;
+mod formula;
+mod index;
+mod object;
+mod slot;
+mod source;
+mod table;
+
+use std::sync::Arc;
+
+pub use error::SetError;
+pub use fingerprint::Fingerprint;
+
+use object::Object;
+use scattering::{Class, Mode, Node, spec::Met};
+
+use crate::Library;
+
+/// The state of a model's parameters.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    root: Arc<Object>,
+    fingerprint: Fingerprint,
+}
+
+/// What setting a parameter needs besides its name and text.
+pub(crate) struct Context<'a> {
+    pub(crate) library: &'a Library,
+    pub(crate) mode: Mode,
+    /// The wavelength for which the objects around were evaluated last, if any.
+    pub(crate) evaluated_at: Option<f64>,
+}
+
+impl Parameters {
+    /// Every parameter of `class` at its default.
+    pub fn new(class: &'static Class) -> Self {
+        let root = Arc::new(Object::new(class));
+        let fingerprint = root.fingerprint();
+        Self { root, fingerprint }
+    }
+
+    /// The class of the model.
+    pub fn class(&self) -> &'static Class {
+        self.root.class
+    }
+
+    /// Sets the parameter with the dotted name `path` to what `text` says.
+    ///
+    /// `previous` are the parameters of the last evaluation; NIST's library remembers optical
+    /// constants by them.
+    ///
+    /// # Errors
+    ///
+    /// For a name that is not known, a text that is not a value of the parameter's kind, and a
+    /// file that cannot be read.
+    pub fn set(
+        &mut self,
+        path: &str,
+        text: &str,
+        library: &Library,
+        mode: Mode,
+        previous: Option<&Self>,
+    ) -> Result<(), SetError> {
+        let mut context = Context { library, mode, evaluated_at: None };
+        let before = previous.map(|parameters| &*parameters.root);
+        Arc::make_mut(&mut self.root)
+            .set(path, text, &mut context, before)
+            .map_err(|error| error.named(path))?;
+        self.fingerprint = self.root.fingerprint();
+        Ok(())
+    }
+
+    /// Sets every parameter called `lambda`, of the model and of all objects in it, in µm.
+    pub fn set_wavelength(&mut self, lambda: f64) {
+        Arc::make_mut(&mut self.root).set_wavelength(lambda);
+        self.fingerprint = self.root.fingerprint();
+    }
+
+    /// Equal for states that build equal models.
+    pub fn fingerprint(&self) -> Fingerprint {
+        self.fingerprint
+    }
+
+    /// The typed values from which the model is built.
+    pub fn node(&self, mode: Mode, met: &Met) -> Node {
+        self.root.node(mode, met)
+    }
+
+    /// Optical constants remembered for another wavelength than the present one are forgotten.
+    pub(crate) fn forget_other_wavelengths(&mut self) {
+        if self.root.remembers() {
+            Arc::make_mut(&mut self.root).forget_other_wavelengths(None);
+            self.fingerprint = self.root.fingerprint();
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! The state of a parameter that holds films as `material thickness` pairs.
+
+use std::hash::{Hash, Hasher};
+
+use mist_format::optics::{self, OpticsError, StackText};
+use scattering::stack::Film;
+
+use super::{Context, SetError, index::IndexState, source::Source};
+
+/// Films, the one next to the substrate first.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FilmsState {
+    /// The texts they were read from.
+    texts: Vec<String>,
+    films: Vec<Film>,
+}
+
+impl Hash for FilmsState {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.texts.hash(state);
+    }
+}
+
+impl FilmsState {
+    /// Reads films, or the name of a file with films; nothing is no film.
+    pub(crate) fn read(text: &str, context: &Context<'_>) -> Result<Self, SetError> {
+        let mut state = Self::default();
+        state.grow(text, context)?;
+        Ok(state)
+    }
+
+    /// Sets `grow` (adds films on top) or `wash` (takes all away).
+    pub(crate) fn set(
+        &mut self,
+        name: &str,
+        text: &str,
+        context: &Context<'_>,
+    ) -> Result<(), SetError> {
+        match name {
+            "grow" => self.grow(text, context),
+            "wash" => {
+                *self = Self::default();
+                Ok(())
+            }
+            _ => Err(SetError::name(format!("a film stack has no parameter {name}"))
+                .help("it has grow, which adds films, and wash, which takes them away")),
+        }
+    }
+
+    fn grow(&mut self, text: &str, context: &Context<'_>) -> Result<(), SetError> {
+        let dialect = context.library.dialect();
+        let wrong = |error: OpticsError| SetError::value(error.to_string()).help(error.help());
+        let films = match StackText::parse(text, dialect).map_err(wrong)? {
+            StackText::Films(films) => films,
+            StackText::File(name) => {
+                let text =
+                    context.library.text(&name).map_err(|e| SetError::value(e.to_string()))?;
+                StackText::parse_file(&text, dialect)
+                    .map_err(|error| SetError::value(format!("{name}: {error}")))?
+            }
+        };
+        for optics::Film { material, thickness } in films {
+            let (source, column) = Source::of_index_text(material, context.library)?;
+            let index = IndexState::of_source("film", source, column, context)?.value();
+            self.films.push(Film { index, thickness });
+        }
+        self.texts.push(text.to_owned());
+        Ok(())
+    }
+
+    pub(crate) fn value(&self) -> Vec<Film> {
+        self.films.clone()
+    }
+}

@@ -1,0 +1,132 @@
+//! The state of a parameter that holds an index of refraction.
+
+use std::{
+    hash::{Hash, Hasher},
+    sync::Arc,
+};
+
+use mist_format::number::whole_number;
+use scattering::optics::{Index, Table};
+
+use super::{Context, SetError, source::Source, table::TableState};
+use crate::quirk::Quirk;
+
+/// An index of refraction: one table for n, one for k.
+#[derive(Clone, Debug)]
+pub(crate) struct IndexState {
+    n: TableState,
+    k: TableState,
+    /// What NIST's library still remembers for its last wavelength.
+    held: Option<Held>,
+}
+
+/// A value that outlives a change of interpolation, as long as the wavelength stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Held {
+    lambda: f64,
+    n: f64,
+    k: f64,
+}
+
+impl Hash for IndexState {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.n.hash(state);
+        self.k.hash(state);
+        self.held.map(|held| [held.lambda, held.n, held.k].map(f64::to_bits)).hash(state);
+    }
+}
+
+impl IndexState {
+    /// The default that the registry declares: a number or `(n,k)`.
+    pub(crate) fn constant(text: &str) -> Self {
+        let inner = text.trim_start_matches('(').trim_end_matches(')');
+        let values: Vec<f64> =
+            inner.split(',').map(|part| whole_number(part).unwrap_or(f64::NAN)).collect();
+        Self {
+            n: TableState::of_values(text, values.clone(), 2),
+            k: TableState::of_values(text, values, 3),
+            held: None,
+        }
+    }
+
+    /// Reads the text of optical constants.
+    pub(crate) fn read(text: &str, context: &Context<'_>) -> Result<Self, SetError> {
+        let (source, column) = Source::of_index(text, context)?;
+        Self::of_source(text, source, column, context)
+    }
+
+    pub(crate) fn of_source(
+        text: &str,
+        source: Source,
+        column: usize,
+        context: &Context<'_>,
+    ) -> Result<Self, SetError> {
+        let n = TableState::new(text, source.clone(), column, context)?;
+        let k = TableState::new(text, source, column + 1, context)?;
+        Ok(Self { n, k, held: None })
+    }
+
+    /// Sets a sub-parameter: `n`, `k`, or one that both tables have.
+    pub(crate) fn set(
+        &mut self,
+        path: &str,
+        text: &str,
+        context: &Context<'_>,
+    ) -> Result<(), SetError> {
+        let (name, rest) = path.split_once('.').map_or((path, None), |(n, r)| (n, Some(r)));
+        let part = match name {
+            "n" => Some(&mut self.n),
+            "k" => Some(&mut self.k),
+            _ => None,
+        };
+        match (part, rest) {
+            (Some(part), None) => {
+                *part = TableState::read(text, 2, context)?;
+                self.held = None;
+                Ok(())
+            }
+            (Some(part), Some(rest)) => part.set(rest, text, context),
+            (None, _) => {
+                self.hold(context);
+                self.n.set(path, text, context)?;
+                self.k.set(path, text, context)
+            }
+        }
+    }
+
+    /// Keeps the value of the last evaluation, as NIST's library does.
+    fn hold(&mut self, context: &Context<'_>) {
+        let Some(lambda) = context.evaluated_at else { return };
+        if Quirk::StaleInterpolation.applies_in(context.mode) {
+            let value = self.value().at(lambda);
+            self.held = Some(Held { lambda, n: value.re, k: value.im });
+        }
+    }
+
+    pub(crate) fn remembers(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Forgets what was kept for another wavelength than `lambda`.
+    pub(crate) fn forget_unless_at(self: &mut Arc<Self>, lambda: Option<f64>) {
+        if self.held.is_some_and(|held| Some(held.lambda) != lambda) {
+            Arc::make_mut(self).held = None;
+        }
+    }
+
+    pub(crate) fn value(&self) -> Index {
+        let (n, k) = (self.n.value(), self.k.value());
+        match self.held {
+            None => Index { n, k },
+            Some(held) => Index {
+                n: still(n, held.lambda, held.n),
+                k: still(k, held.lambda, held.k),
+            },
+        }
+    }
+}
+
+/// `table`, but `value` at the abscissa `at`.
+fn still(table: Table, at: f64, value: f64) -> Table {
+    Table::Formula(Arc::new(move |x| if x == at { value } else { table.at(x) }))
+}

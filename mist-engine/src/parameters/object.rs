@@ -1,0 +1,123 @@
+//! A class with the state of its parameters.
+
+use std::{
+    hash::{Hash, Hasher},
+    sync::Arc,
+};
+
+use mist_format::{number::general, suggestion::did_you_mean};
+use scattering::{Class, Mode, Node, spec::Met};
+
+use super::{Context, Fingerprint, SetError, slot::Slot};
+
+/// Parameters that every class of NIST's library takes and that change nothing here.
+const IGNORED: &[&str] = &["recalc", "quiet"];
+
+/// An object in the tree of parameters.
+#[derive(Clone, Debug)]
+pub(crate) struct Object {
+    pub(crate) class: &'static Class,
+    /// One per parameter of the class, in its order.
+    slots: Vec<Slot>,
+}
+
+impl Hash for Object {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.class.name.hash(state);
+        self.slots.hash(state);
+    }
+}
+
+impl Object {
+    /// Every parameter at its default.
+    pub(crate) fn new(class: &'static Class) -> Self {
+        Self { class, slots: class.parameters().map(Slot::default_of).collect() }
+    }
+
+    pub(crate) fn fingerprint(&self) -> Fingerprint {
+        Fingerprint::of(self)
+    }
+
+    /// Sets the parameter `path`, seen from this object; `before` is this object as it was last
+    /// evaluated.
+    pub(crate) fn set(
+        &mut self,
+        path: &str,
+        text: &str,
+        context: &mut Context<'_>,
+        before: Option<&Self>,
+    ) -> Result<(), SetError> {
+        let (name, rest) = match path.split_once('.') {
+            Some((name, rest)) => (name, Some(rest)),
+            None => (path, None),
+        };
+        if rest == Some("") {
+            return Err(SetError::name(format!("the sub-parameter of {name} is missing")));
+        }
+        if IGNORED.contains(&name) && rest.is_none() {
+            return Ok(());
+        }
+        let before = before.filter(|before| before.class.name == self.class.name);
+        if let Some(lambda) = before.and_then(Self::wavelength) {
+            context.evaluated_at = Some(lambda);
+        }
+        let (at, param) = self.class.parameter(name).ok_or_else(|| self.unknown(name))?;
+        let slot_before = before.map(|before| &before.slots[at]);
+        match rest {
+            Some(rest) => self.slots[at].set_below(param, rest, text, context, slot_before),
+            None => self.slots[at].set(param, text, context),
+        }
+    }
+
+    fn unknown(&self, name: &str) -> SetError {
+        let known: Vec<&str> = self.class.parameters().map(|param| param.name).collect();
+        let list = known.join(", ");
+        SetError::name(format!("{} has no parameter {name}", self.class.name))
+            .help(format!("it has {list}"))
+            .help_if(did_you_mean(name, known))
+    }
+
+    /// The value of the parameter `lambda`, if there is one.
+    pub(crate) fn wavelength(&self) -> Option<f64> {
+        let (at, _) = self.class.parameter("lambda")?;
+        self.slots[at].as_number()
+    }
+
+    pub(crate) fn set_wavelength(&mut self, lambda: f64) {
+        for (slot, param) in self.slots.iter_mut().zip(self.class.parameters()) {
+            match slot {
+                Slot::Member(object) => Arc::make_mut(object).set_wavelength(lambda),
+                Slot::Number(value) if param.name == "lambda" => {
+                    // The digits that a program would send.
+                    *value = general(lambda, 16).parse().unwrap_or(lambda);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether an index in here remembers a value for its last wavelength.
+    pub(crate) fn remembers(&self) -> bool {
+        self.slots.iter().any(|slot| match slot {
+            Slot::Member(object) => object.remembers(),
+            Slot::Index(index) => index.remembers(),
+            _ => false,
+        })
+    }
+
+    pub(crate) fn forget_other_wavelengths(&mut self, around: Option<f64>) {
+        let lambda = self.wavelength().or(around);
+        for slot in &mut self.slots {
+            match slot {
+                Slot::Member(object) => Arc::make_mut(object).forget_other_wavelengths(lambda),
+                Slot::Index(index) => index.forget_unless_at(lambda),
+                _ => {}
+            }
+        }
+    }
+
+    pub(crate) fn node(&self, mode: Mode, met: &Met) -> Node {
+        let values = self.slots.iter().map(|slot| slot.value(mode, met)).collect();
+        Node { class: self.class, values, mode, met: met.clone() }
+    }
+}

@@ -1,0 +1,213 @@
+//! The state of one parameter, by its kind.
+
+use std::{
+    hash::{Hash, Hasher},
+    mem::discriminant,
+    sync::Arc,
+};
+
+use mist_format::{
+    number::{integer_prefix, number_prefix, whole_number},
+    suggestion::did_you_mean,
+};
+use scattering::{
+    Family, Kind, Mode, Param, Value,
+    spec::{self, Met},
+};
+
+use super::{
+    Context, SetError, films::FilmsState, formula::Formula, index::IndexState, object::Object,
+    table::TableState,
+};
+use crate::quirk::Quirk;
+
+/// The state of a parameter.
+#[derive(Clone, Debug)]
+pub(crate) enum Slot {
+    Number(f64),
+    Integer(i32),
+    /// Text for the class itself.
+    Text(Arc<str>),
+    /// The name of a file and its text.
+    File { name: Arc<str>, text: Arc<str> },
+    /// A function of x.
+    Formula(Arc<Formula>),
+    Index(Arc<IndexState>),
+    Table(Arc<TableState>),
+    Films(Arc<FilmsState>),
+    Member(Arc<Object>),
+}
+
+impl Hash for Slot {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        discriminant(self).hash(state);
+        match self {
+            Self::Number(x) => x.to_bits().hash(state),
+            Self::Integer(i) => i.hash(state),
+            // A file's text does not change during a run: its name tells it.
+            Self::Text(text) | Self::File { name: text, .. } => text.hash(state),
+            Self::Formula(formula) => formula.text().hash(state),
+            Self::Index(index) => index.hash(state),
+            Self::Table(table) => table.hash(state),
+            Self::Films(films) => films.hash(state),
+            Self::Member(object) => object.hash(state),
+        }
+    }
+}
+
+impl Slot {
+    /// The default that the registry declares.
+    pub(crate) fn default_of(param: &Param) -> Self {
+        let default = param.default;
+        match param.kind {
+            Kind::Number => Self::Number(whole_number(default).unwrap_or(f64::NAN)),
+            Kind::Integer => {
+                Self::Integer(integer_prefix(default).value.and_then(|v| v.try_into().ok()).unwrap_or(0))
+            }
+            Kind::Text => Self::Text(default.into()),
+            Kind::File => Self::File { name: default.into(), text: "".into() },
+            Kind::Formula => Self::Formula(Arc::new(Formula::constant(default))),
+            Kind::Index => Self::Index(Arc::new(IndexState::constant(default))),
+            Kind::Table => Self::Table(Arc::new(TableState::constant(default))),
+            Kind::Films => Self::Films(Arc::default()),
+            Kind::Member(..) => {
+                let class = spec::find_class(default).expect("a test builds every default");
+                Self::Member(Arc::new(Object::new(class)))
+            }
+        }
+    }
+
+    /// Sets the parameter itself.
+    pub(crate) fn set(
+        &mut self,
+        param: &Param,
+        text: &str,
+        context: &Context<'_>,
+    ) -> Result<(), SetError> {
+        if text == "default" {
+            *self = Self::default_of(param);
+            return Ok(());
+        }
+        *self = match param.kind {
+            Kind::Number => Self::Number(number(text, context.mode)?),
+            Kind::Integer => Self::Integer(integer(text, context.mode)?),
+            Kind::Text => Self::Text(text.into()),
+            Kind::File => {
+                let file = context.library.text(text).map_err(|e| SetError::value(e.to_string()))?;
+                Self::File { name: text.into(), text: file }
+            }
+            Kind::Formula => Self::Formula(Arc::new(Formula::read(text, context.library)?)),
+            Kind::Index => Self::Index(Arc::new(IndexState::read(text, context)?)),
+            Kind::Table => Self::Table(Arc::new(TableState::read(text, 2, context)?)),
+            Kind::Films => Self::Films(Arc::new(FilmsState::read(text, context)?)),
+            Kind::Member(family, base) => {
+                let class = member(text, family, base)?;
+                Self::Member(Arc::new(Object::new(class)))
+            }
+        };
+        Ok(())
+    }
+
+    /// Sets a parameter below this one; `before` is this one as it was last evaluated.
+    pub(crate) fn set_below(
+        &mut self,
+        param: &Param,
+        rest: &str,
+        text: &str,
+        context: &mut Context<'_>,
+        before: Option<&Self>,
+    ) -> Result<(), SetError> {
+        match self {
+            Self::Member(object) => {
+                let before = match before {
+                    Some(Self::Member(object)) => Some(&**object),
+                    _ => None,
+                };
+                Arc::make_mut(object).set(rest, text, context, before)
+            }
+            Self::Index(index) => Arc::make_mut(index).set(rest, text, context),
+            Self::Table(table) => Arc::make_mut(table).set(rest, text, context),
+            Self::Films(films) => Arc::make_mut(films).set(rest, text, context),
+            _ => Err(SetError::name(format!(
+                "{} is not an object: no sub-parameter {rest} is allowed",
+                param.name
+            ))),
+        }
+    }
+
+    pub(crate) fn as_number(&self) -> Option<f64> {
+        match self {
+            Self::Number(x) => Some(*x),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn value(&self, mode: Mode, met: &Met) -> Value {
+        match self {
+            Self::Number(x) => Value::Number(*x),
+            Self::Integer(i) => Value::Integer(*i),
+            Self::Text(text) | Self::File { text, .. } => Value::Text(text.clone()),
+            Self::Formula(formula) => Value::Formula(formula.function()),
+            Self::Index(index) => Value::Index(index.value()),
+            Self::Table(table) => Value::Table(table.value()),
+            Self::Films(films) => Value::Films(films.value()),
+            Self::Member(object) => Value::Member(Arc::new(object.node(mode, met))),
+        }
+    }
+}
+
+/// A number: the whole text, or under compat its longest numeric beginning (0 without one).
+fn number(text: &str, mode: Mode) -> Result<f64, SetError> {
+    if let Some(x) = whole_number(text) {
+        return Ok(x);
+    }
+    let prefix = number_prefix(text.as_bytes());
+    if Quirk::NumericPrefix.applies_in(mode) {
+        return Ok(prefix.value.unwrap_or(0.0));
+    }
+    let error = SetError::value(format!("{text:?} is not a number"));
+    Err(match prefix.value {
+        Some(x) => error.help(format!(
+            "write {x}, or use `#` in place of `$` for an expression; NIST's program reads {x}"
+        )),
+        None => error.help("NIST's program reads 0; use `#` in place of `$` for an expression"),
+    })
+}
+
+fn integer(text: &str, mode: Mode) -> Result<i32, SetError> {
+    let prefix = integer_prefix(text);
+    let value = prefix.value.and_then(|value| i32::try_from(value).ok());
+    if Quirk::NumericPrefix.applies_in(mode) {
+        return Ok(value.unwrap_or(0));
+    }
+    let whole = prefix.taken == text.trim_end().len();
+    value.filter(|_| whole).ok_or_else(|| {
+        SetError::value(format!("{text:?} is not an integer"))
+            .help(format!("NIST's program reads {}", value.unwrap_or(0)))
+    })
+}
+
+/// The class called `name`, at or below `base`.
+fn member(
+    name: &str,
+    family: Family,
+    base: &str,
+) -> Result<&'static scattering::Class, SetError> {
+    let choices: Vec<&str> = family
+        .classes()
+        .iter()
+        .map(|class| class.name)
+        .filter(|choice| spec::is_below(choice, base))
+        .collect();
+    let found = spec::find_class(name).filter(|class| choices.contains(&class.name));
+    found.ok_or_else(|| {
+        let abstract_class = name == base || spec::ABSTRACT.iter().any(|(this, _)| *this == name);
+        let problem = if abstract_class {
+            format!("{name} is a family of classes, not one of them")
+        } else {
+            format!("there is no {base} called {name:?}")
+        };
+        let all = format!("choose one of {}", choices.join(", "));
+        SetError::value(problem).help(all).help_if(did_you_mean(name, choices))
+    })
+}

@@ -1,0 +1,149 @@
+//! Where the values of a table come from: constants, formulas, columns of files.
+
+use std::sync::Arc;
+
+use mist_format::{
+    expr::Expr,
+    optics::{IndexText, TableText},
+    table::{ColumnTable, FormulaFile},
+};
+use scattering::optics::{Axis, Rise, Table};
+
+use super::{Context, SetError, formula::columns};
+use crate::Library;
+
+/// A function of one variable with several columns; column 2 is the first of them.
+#[derive(Clone, Debug)]
+pub(crate) enum Source {
+    /// The same values everywhere; behind the last one follow zeros.
+    Constant(Vec<f64>),
+    /// Expressions of a variable.
+    Formula { variable: String, columns: Expr },
+    /// Columns of a file.
+    Rows { file: String, table: Arc<ColumnTable> },
+    /// Expressions, or a loop that makes rows, with parameters of their own.
+    Parametric { file: String, formula: Arc<FormulaFile> },
+}
+
+/// How a source is read.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Reading {
+    pub(crate) axis: Axis,
+    pub(crate) rise: Rise,
+    /// Parameters of a formula file that differ from the file's own values.
+    pub(crate) parameters: Vec<(String, f64)>,
+}
+
+impl Source {
+    /// The source that a table's text names, and the column it asks for.
+    pub(crate) fn of_table(
+        text: &str,
+        context: &Context<'_>,
+    ) -> Result<(Self, Option<usize>), SetError> {
+        let read = TableText::parse(text, context.library.dialect());
+        match read.map_err(|error| SetError::value(error.to_string()).help(error.help()))? {
+            TableText::Constant(value) => Ok((Self::Constant(value.as_slice().to_vec()), None)),
+            TableText::Formula { variable, columns } => {
+                Ok((Self::Formula { variable, columns }, None))
+            }
+            TableText::File { name, column } => Ok((Self::file(&name, context.library)?, column)),
+        }
+    }
+
+    /// The source that an optical constant's text names, and the column of n.
+    pub(crate) fn of_index(text: &str, context: &Context<'_>) -> Result<(Self, usize), SetError> {
+        let read = IndexText::parse(text, context.library.dialect())
+            .map_err(|error| SetError::value(error.to_string()).help(error.help()))?;
+        Self::of_index_text(read, context.library)
+    }
+
+    pub(crate) fn of_index_text(
+        read: IndexText,
+        library: &Library,
+    ) -> Result<(Self, usize), SetError> {
+        Ok(match read {
+            IndexText::Constant { n, k } => (Self::Constant(vec![n, k]), 2),
+            IndexText::Formula { variable, columns } => (Self::Formula { variable, columns }, 2),
+            IndexText::File { name, column } => (Self::file(&name, library)?, column),
+        })
+    }
+
+    fn file(name: &str, library: &Library) -> Result<Self, SetError> {
+        let text = library.text(name).map_err(|error| SetError::value(error.to_string()))?;
+        let wrong = |error: mist_format::table::TableError| {
+            SetError::value(format!("{name}: {error}"))
+        };
+        if FormulaFile::is_formula(&text) {
+            let formula = FormulaFile::parse(&text).map_err(wrong)?;
+            return Ok(Self::Parametric { file: name.into(), formula: Arc::new(formula) });
+        }
+        let table = library.columns(name).map_err(wrong)?;
+        Ok(Self::Rows { file: name.into(), table })
+    }
+
+    /// Column `column` (2 is the first behind the abscissa) as a function.
+    pub(crate) fn table(
+        &self,
+        column: usize,
+        reading: &Reading,
+        library: &Library,
+    ) -> Result<Table, SetError> {
+        let element = column.checked_sub(2).ok_or_else(|| {
+            SetError::value("column 1 holds the abscissa; values stand in column 2 and beyond")
+        })?;
+        match self {
+            Self::Constant(values) => {
+                Ok(Table::constant(values.get(element).copied().unwrap_or(0.0)))
+            }
+            Self::Formula { variable, columns: expr } => {
+                Ok(Table::Formula(columns(expr, variable, element, library)?))
+            }
+            Self::Rows { file, table } => points(file, table, element, reading),
+            Self::Parametric { file, formula } => {
+                let parameters = reading.parameters.clone();
+                let value = move |name: &str| {
+                    parameters.iter().rev().find(|(known, _)| known == name).map(|(_, v)| *v)
+                };
+                let wrong = |error: mist_format::table::TableError| {
+                    SetError::value(format!("{file}: {error}"))
+                };
+                if let Some(table) = formula.table(&value).map_err(wrong)? {
+                    return points(file, &table, element, reading);
+                }
+                formula.columns_at(0.5, &value).map_err(wrong)?;
+                let formula = formula.clone();
+                Ok(Table::Formula(Arc::new(move |x| {
+                    let columns = formula.columns_at(x, &value).ok().flatten();
+                    columns.map_or(f64::NAN, |all| {
+                        all.as_slice().get(element).copied().unwrap_or(0.0)
+                    })
+                })))
+            }
+        }
+    }
+
+    /// Names of the parameters of a formula file.
+    pub(crate) fn parameters(&self) -> Vec<&str> {
+        match self {
+            Self::Parametric { formula, .. } => {
+                formula.parameters.iter().map(|(name, _)| name.as_str()).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+fn points(
+    file: &str,
+    table: &ColumnTable,
+    element: usize,
+    reading: &Reading,
+) -> Result<Table, SetError> {
+    let column = element + 1;
+    if column >= table.columns() {
+        let problem = format!("{file} has {} columns, not {}", table.columns(), column + 1);
+        return Err(SetError::value(problem));
+    }
+    let rows: Vec<(f64, f64)> = table.rows().map(|row| (row[0], row[column])).collect();
+    Ok(Table::points(&rows, reading.axis, reading.rise))
+}

@@ -1,0 +1,124 @@
+//! The state of a parameter that holds a function of one variable.
+
+use std::{
+    hash::{Hash, Hasher},
+    sync::Arc,
+};
+
+use mist_format::number::{number_prefix, whole_number};
+use scattering::optics::{Axis, Rise, Table};
+
+use super::{
+    Context, SetError,
+    source::{Reading, Source},
+};
+
+/// A table, its source, and how it is interpolated.
+#[derive(Clone, Debug)]
+pub(crate) struct TableState {
+    text: Arc<str>,
+    source: Source,
+    column: usize,
+    reading: Reading,
+    table: Table,
+}
+
+impl Hash for TableState {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        // The text names the source: files do not change during a run.
+        self.text.hash(state);
+        self.column.hash(state);
+        (self.reading.axis as u8, self.reading.rise as u8).hash(state);
+        for (name, value) in &self.reading.parameters {
+            (name, value.to_bits()).hash(state);
+        }
+    }
+}
+
+impl TableState {
+    /// The default that the registry declares: a number.
+    pub(crate) fn constant(text: &str) -> Self {
+        let value = whole_number(text).unwrap_or(f64::NAN);
+        Self::of_values(text, vec![value], 2)
+    }
+
+    /// A constant with several columns.
+    pub(crate) fn of_values(text: &str, values: Vec<f64>, column: usize) -> Self {
+        let value = values.get(column - 2).copied().unwrap_or(0.0);
+        Self {
+            text: text.into(),
+            source: Source::Constant(values),
+            column,
+            reading: Reading::default(),
+            table: Table::constant(value),
+        }
+    }
+
+    /// Reads the text of a table whose values stand in `column` unless it says otherwise.
+    pub(crate) fn read(text: &str, column: usize, context: &Context<'_>) -> Result<Self, SetError> {
+        let (source, asked) = Source::of_table(text, context)?;
+        Self::new(text, source, asked.unwrap_or(column), context)
+    }
+
+    pub(crate) fn new(
+        text: &str,
+        source: Source,
+        column: usize,
+        context: &Context<'_>,
+    ) -> Result<Self, SetError> {
+        let reading = Reading::default();
+        let table = source.table(column, &reading, context.library)?;
+        Ok(Self { text: text.into(), source, column, reading, table })
+    }
+
+    pub(crate) fn value(&self) -> Table {
+        self.table.clone()
+    }
+
+    /// Sets a sub-parameter: an interpolation, or a parameter of the formula file.
+    pub(crate) fn set(
+        &mut self,
+        name: &str,
+        text: &str,
+        context: &Context<'_>,
+    ) -> Result<(), SetError> {
+        if name.eq_ignore_ascii_case("interpolationx") {
+            self.reading.axis = axis(text)?;
+        } else if name.eq_ignore_ascii_case("interpolationy") {
+            self.reading.rise = rise(text)?;
+        } else if self.source.parameters().contains(&name) {
+            let value = number_prefix(text.as_bytes()).value.ok_or_else(|| {
+                SetError::value(format!("{text:?} is not a number"))
+            })?;
+            self.reading.parameters.retain(|(known, _)| known != name);
+            self.reading.parameters.push((name.to_owned(), value));
+        } else {
+            let own = self.source.parameters().join(", ");
+            let own = if own.is_empty() { String::new() } else { format!(", {own}") };
+            return Err(SetError::name(format!("the table {} has no parameter {name}", self.text))
+                .help(format!("it has interpolationx, interpolationy{own}")));
+        }
+        self.table = self.source.table(self.column, &self.reading, context.library)?;
+        Ok(())
+    }
+}
+
+fn axis(text: &str) -> Result<Axis, SetError> {
+    match text {
+        "lin" => Ok(Axis::Linear),
+        "log" => Ok(Axis::Log),
+        _ => Err(SetError::value(format!("{text:?} is not an interpolation: write lin or log"))),
+    }
+}
+
+fn rise(text: &str) -> Result<Rise, SetError> {
+    match text {
+        "lin" => Ok(Rise::Linear),
+        "log" => Ok(Rise::Log),
+        "spline" => Ok(Rise::Spline),
+        "logspline" => Ok(Rise::LogSpline),
+        _ => Err(SetError::value(format!(
+            "{text:?} is not an interpolation: write lin, log, spline or logspline"
+        ))),
+    }
+}

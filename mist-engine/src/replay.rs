@@ -1,0 +1,389 @@
+//! The sequential part of a run: what the expressions say, step by step.
+//!
+//! A replay owns the variables, the loops and the model's parameters, and yields one
+//! independent [`Step`] per combination of loop values. It never evaluates the model.
+
+use mist_format::{
+    Diagnostic, Program,
+    expr::{EvalError, Expr, Stack, Value},
+    number::whole_number,
+    program::{Shape, Text},
+};
+use scattering::{Mode, Stokes};
+
+use crate::{
+    Job,
+    fault::{Fault, fault, placed},
+    job::{Entry, IntegralPlan, Key},
+    parameters::Parameters,
+    quirk::{Quirk, dialect},
+    region::{Apertures, Region},
+    sampling::Sampling,
+    scope::Scope,
+    step::{Integral, Step},
+    sweep::{Context, Sweep},
+};
+
+/// What an entry holds for the rest of the run after a loop has written it.
+struct Overwritten {
+    text: String,
+    expr: Option<Expr>,
+}
+
+/// A run of the expressions of a job.
+pub struct Replay<'j> {
+    job: &'j Job,
+    pub(crate) scope: Scope,
+    stack: Stack,
+    sweep: Option<Sweep<'j>>,
+    overwritten: Vec<Option<Overwritten>>,
+    last_sent: Vec<Option<String>>,
+    parameters: Parameters,
+    /// The parameters of the step before: NIST's library remembers optical constants by them.
+    previous: Option<Parameters>,
+    index: u64,
+}
+
+impl<'j> Replay<'j> {
+    /// At the beginning of `job`, before its first step.
+    pub fn new(job: &'j Job) -> Self {
+        let mut scope = Scope::new(job.names.len(), job.library.clone());
+        for (slot, value) in &job.initial {
+            scope.set(*slot, value.clone());
+        }
+        let entries = job.entries.len();
+        Self {
+            job,
+            scope,
+            stack: Stack::default(),
+            sweep: None,
+            overwritten: (0..entries).map(|_| None).collect(),
+            last_sent: vec![None; entries],
+            parameters: Parameters::new(job.class),
+            previous: None,
+            index: 0,
+        }
+    }
+
+    /// The next step; none after the last one.
+    ///
+    /// # Errors
+    ///
+    /// The first thing that is wrong with the program in this step, and where.
+    pub fn next_step(&mut self) -> Result<Option<Step>, Fault> {
+        if !self.move_loops()? {
+            return Ok(None);
+        }
+        let mut listing = String::new();
+        self.set_predefined();
+        for at in 0..self.job.entries.len() {
+            self.evaluate_entry(at, &mut listing)?;
+        }
+        if self.job.options.mode == Mode::Compat {
+            self.parameters.forget_other_wavelengths();
+        }
+        let step = self.step(listing)?;
+        self.previous = Some(self.parameters.clone());
+        self.index += 1;
+        Ok(Some(step))
+    }
+
+    /// How often each loop was advanced since its reset: the place of the last step.
+    pub fn counts(&self) -> Vec<u64> {
+        self.sweep.as_ref().map(|sweep| sweep.counts().to_vec()).unwrap_or_default()
+    }
+
+    fn move_loops(&mut self) -> Result<bool, Fault> {
+        let mut context = Context {
+            scope: &mut self.scope,
+            stack: &mut self.stack,
+            names: &self.job.names,
+            mode: self.job.options.mode,
+        };
+        let goes_on = match &mut self.sweep {
+            None => {
+                self.sweep = Some(Sweep::start(&self.job.loops, &mut context)?);
+                true
+            }
+            Some(sweep) => sweep.advance(&mut context)?,
+        };
+        if goes_on && let Some(sweep) = &mut self.sweep {
+            for written in sweep.take_written() {
+                let slot = &mut self.overwritten[written.entry];
+                *slot = Some(Overwritten { text: written.text, expr: None });
+            }
+        }
+        Ok(goes_on)
+    }
+
+    fn set_predefined(&mut self) {
+        let required = &self.job.required;
+        let pi = 4.0 * 1f64.atan();
+        for (slot, value) in [
+            (required.integrationmode, 2.0),
+            (required.polygonsides, 360.0),
+            (required.pi, pi),
+            (required.deg, pi / 180.0),
+        ] {
+            self.scope.set(slot, value.into());
+        }
+    }
+
+    fn evaluate_entry(&mut self, at: usize, listing: &mut String) -> Result<(), Fault> {
+        let entry = &self.job.entries[at];
+        let Some(slot) = entry.slot else {
+            let text = match &self.overwritten[at] {
+                Some(over) => over.text.clone(),
+                None => self.text(entry).as_str().to_owned(),
+            };
+            return self.send(at, text, listing);
+        };
+        let value = self.entry_value(at, entry)?;
+        if entry.parameter.is_some() {
+            let text = value.to_text();
+            self.scope.set(slot, value);
+            self.send(at, text, listing)
+        } else {
+            self.scope.set(slot, value);
+            Ok(())
+        }
+    }
+
+    fn entry_value(&mut self, at: usize, entry: &Entry) -> Result<Value, Fault> {
+        let text = self.text(entry);
+        let expr = match &mut self.overwritten[at] {
+            None => entry.expr.as_ref().expect("an entry with a slot has an expression"),
+            Some(over) => {
+                if let Some(x) = whole_number(&over.text) {
+                    return Ok(x.into());
+                }
+                if over.expr.is_none() {
+                    over.expr = Some(written_expr(self.job, &over.text, text)?);
+                }
+                over.expr.as_ref().expect("compiled just now")
+            }
+        };
+        self.scope
+            .value(expr, &mut self.stack)
+            .map_err(|error| unknown(self.job, &self.scope, text, &error))
+    }
+
+    fn text(&self, entry: &Entry) -> &'j Text {
+        &self.job.program.variables[entry.variable].value
+    }
+
+    /// Sends a parameter to the model, unless this entry sent the same text before.
+    fn send(&mut self, at: usize, text: String, listing: &mut String) -> Result<(), Fault> {
+        if self.last_sent[at].as_ref() == Some(&text) {
+            return Ok(());
+        }
+        let entry = &self.job.entries[at];
+        let name = entry.parameter.as_deref().expect("only parameters are sent");
+        listing.push_str(&format!("Setting parameter {name} to {text}\n"));
+        let mode = self.job.options.mode;
+        self.parameters
+            .set(name, &text, &self.job.library, mode, self.previous.as_ref())
+            .map_err(|error| {
+                let variable = &self.job.program.variables[entry.variable];
+                let place = if error.is_about_the_name() { &variable.name } else { &variable.value };
+                Box::new(error.diagnostic(place.span()))
+            })?;
+        if !Quirk::NoResend.applies_in(mode) {
+            self.forget_below(at, name);
+        }
+        self.last_sent[at] = Some(text);
+        Ok(())
+    }
+
+    /// Entries that set a parameter below `name` are sent again: it is a new object now.
+    fn forget_below(&mut self, at: usize, name: &str) {
+        for (other, entry) in self.job.entries.iter().enumerate() {
+            let below = entry.parameter.as_deref().and_then(|p| p.strip_prefix(name));
+            if other != at && below.is_some_and(|rest| rest.starts_with('.')) {
+                self.last_sent[other] = None;
+            }
+        }
+    }
+
+    fn step(&mut self, listing: String) -> Result<Step, Fault> {
+        let job = self.job;
+        let required = &job.required;
+        let theta_i = self.required(required.incidentangle)?;
+        let differential = self.required(required.differential)?;
+        let incident = self.incident()?;
+        let min_samples = self.required(required.minsamples)?;
+        let rotation = self.required(required.rotation)?;
+        let mode = self.required(required.integrationmode)? as i32;
+        let polygon_sides = self.required(required.polygonsides)? as i32;
+        let sampling = Sampling {
+            differential,
+            min_samples,
+            mode,
+            polygon_sides,
+            apertures: if Quirk::PolygonApertures.applies_in(job.options.mode) {
+                Apertures::Nist
+            } else {
+                Apertures::Exact
+            },
+            seed: job.options.seed,
+        };
+        let mut integrals = Vec::with_capacity(job.integrals.len());
+        for plan in &job.integrals {
+            integrals.push(self.integral(plan, sampling.clone(), incident)?);
+        }
+        let sweep = self.sweep.as_ref();
+        Ok(Step {
+            index: self.index,
+            parameters: self.parameters.clone(),
+            theta_i,
+            rotation,
+            integrals,
+            columns: sweep.map(Sweep::cells).unwrap_or_default(),
+            values: job.reads.iter().map(|slot| self.scope.get(*slot).cloned()).collect(),
+            listing,
+            fraction: sweep.map_or(0.0, Sweep::fraction),
+            counts: sweep.map(|s| s.counts().to_vec()).unwrap_or_default(),
+        })
+    }
+
+    fn required(&self, slot: u32) -> Result<f64, Fault> {
+        self.scope
+            .get(slot)
+            .map(Value::number)
+            .ok_or_else(|| missing_required(&self.job.program, self.job.names.name(slot)))
+    }
+
+    fn incident(&mut self) -> Result<Stokes, Fault> {
+        let job = self.job;
+        let Some((text, expr)) = &job.required.incidentpol else {
+            return Err(missing_required(&job.program, "incidentpol"));
+        };
+        let value = self
+            .scope
+            .value(expr, &mut self.stack)
+            .map_err(|error| unknown(job, &self.scope, text, &error))?;
+        stokes(&value, text)
+    }
+
+    fn integral(
+        &mut self,
+        plan: &IntegralPlan,
+        sampling: Sampling,
+        incident: Stokes,
+    ) -> Result<Integral, Fault> {
+        let mut aperture = Aperture { inpol: incident, ..Aperture::default() };
+        for setting in &plan.settings {
+            let value = self
+                .scope
+                .value(&setting.expr, &mut self.stack)
+                .map_err(|error| unknown(self.job, &self.scope, &setting.text, &error))?;
+            aperture.set(setting.key, &value, &setting.text)?;
+        }
+        Ok(aperture.integral(plan, sampling))
+    }
+}
+
+/// The parameters of an integral while they are read.
+#[derive(Default)]
+struct Aperture {
+    center: (f64, f64),
+    inner_center: (f64, f64),
+    alpha: f64,
+    inner_alpha: f64,
+    vertices: Vec<(f64, f64)>,
+    pol_center: (f64, f64),
+    pol: Option<Stokes>,
+    inpol: Stokes,
+}
+
+impl Aperture {
+    fn set(&mut self, key: Key, value: &Value, text: &Text) -> Result<(), Fault> {
+        match key {
+            Key::Center | Key::OuterCenter => self.center = direction(value, text)?,
+            Key::InnerCenter => self.inner_center = direction(value, text)?,
+            Key::Alpha | Key::OuterAlpha => self.alpha = value.number(),
+            Key::InnerAlpha => self.inner_alpha = value.number(),
+            Key::Vertex => self.vertices.push(direction(value, text)?),
+            Key::PolCenter => self.pol_center = direction(value, text)?,
+            Key::Pol => self.pol = Some(stokes(value, text)?),
+            Key::InPol => self.inpol = stokes(value, text)?,
+        }
+        Ok(())
+    }
+
+    fn integral(self, plan: &IntegralPlan, sampling: Sampling) -> Integral {
+        let region = match plan.shape {
+            Shape::Differential => Region::Differential { center: self.center },
+            Shape::Circle => Region::Circle { center: self.center, alpha: self.alpha },
+            Shape::Hemi => Region::Hemi,
+            Shape::Annulus => Region::Annulus {
+                outer_center: self.center,
+                outer_alpha: self.alpha,
+                inner_center: self.inner_center,
+                inner_alpha: self.inner_alpha,
+            },
+            Shape::Polygon => Region::Polygon {
+                vertices: self.vertices,
+                polarization_center: self.pol_center,
+            },
+        };
+        let pol = self.pol.unwrap_or(Stokes::UNPOLARIZED);
+        Integral { region, sampling, pol, inpol: self.inpol }
+    }
+}
+
+fn direction(value: &Value, text: &Text) -> Result<(f64, f64), Fault> {
+    match value.as_slice() {
+        [theta, phi, ..] => Ok((*theta, *phi)),
+        _ => Err(Box::new(
+            *fault("integral/direction", text, "a direction has two elements, (theta,phi)"),
+        )),
+    }
+}
+
+fn stokes(value: &Value, text: &Text) -> Result<Stokes, Fault> {
+    match value.as_slice() {
+        [i, q, u, v, ..] => Ok(Stokes([*i, *q, *u, *v])),
+        short => Err(Box::new(
+            Diagnostic::error(
+                "program/stokes",
+                text.span(),
+                format!("a Stokes vector has four elements, this has {}", short.len()),
+            )
+            .help("write (I,Q,U,V), such as (1,0,0,0) for unpolarized light"),
+        )),
+    }
+}
+
+fn missing_required(program: &Program, name: &str) -> Fault {
+    let example = match name {
+        "incidentangle" => "incidentangle = 30*deg",
+        "differential" => "differential = (1*deg)^2",
+        "incidentpol" => "incidentpol = (1,0,0,0)",
+        "minsamples" => "minsamples = 100",
+        "rotation" => "rotation = 0",
+        other => other,
+    };
+    let message = format!("the variable {name} is missing; every program needs it");
+    Box::new(
+        Diagnostic::error("program/missing-variable", program.sections.variables, message)
+            .help(format!("write `{example}` in VARIABLES; the name is written in lower case")),
+    )
+}
+
+/// An error of an evaluation, with the names that were known.
+fn unknown(job: &Job, scope: &Scope, text: &Text, error: &EvalError) -> Fault {
+    let known: Vec<&str> = scope.defined().map(|slot| job.names.name(slot)).collect();
+    placed(text, error.diagnostic(known))
+}
+
+/// The text that a loop wrote into an entry, compiled.
+fn written_expr(job: &Job, written: &str, text: &Text) -> Result<Expr, Fault> {
+    let mut expr = Expr::compile(written, dialect(job.options.mode)).map_err(|error| {
+        let diagnostic = error.diagnostic();
+        let message = format!("the loop value {written:?}: {}", diagnostic.message);
+        Box::new(Diagnostic { span: text.span(), message, ..diagnostic })
+    })?;
+    expr.bind(|name| job.names.find(name).unwrap_or(u32::MAX));
+    Ok(expr)
+}

@@ -1,0 +1,169 @@
+//! Running a job: steps in blocks, each block in parallel, results in order.
+
+use std::{collections::BTreeSet, time::Instant};
+
+use scattering::Defect;
+
+use crate::{
+    Control, Failure, Job,
+    colour::{ColourTable, fold::Fold},
+    fault::Fault,
+    limits::Meter,
+    listing,
+    output::{Outputs, Sink, Stream, head},
+    replay::Replay,
+    sampling::Layout,
+    share::Shared,
+    step::Step,
+};
+
+/// Steps that are replayed before they are evaluated together.
+const BLOCK_STEPS: usize = 1024;
+/// Evaluations after which a block is closed, so that progress is seen and a wish to stop heard.
+const BLOCK_EVALUATIONS: f64 = 2e6;
+
+/// What a finished run has to tell.
+#[derive(Debug, Default)]
+pub struct Summary {
+    /// Steps of the loops.
+    pub steps: u64,
+    /// Evaluations of the model.
+    pub evaluations: f64,
+    /// Seconds it took.
+    pub seconds: f64,
+    /// Defects of NIST's library that a sound run stepped around.
+    pub met: BTreeSet<Defect>,
+    /// The colour table, if the program has a section COLOR.
+    pub colour: Option<ColourTable>,
+}
+
+impl Job {
+    /// Runs the job and writes its tables to `sink`.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with a step, a limit that was reached, a wish to stop, a table that cannot
+    /// be written. What `sink` has taken until then is not the table of the job.
+    pub fn run(&self, sink: &mut dyn Sink, control: &Control) -> Result<Summary, Failure> {
+        Runner::new(self, sink, control).run()
+    }
+}
+
+struct Runner<'a> {
+    job: &'a Job,
+    sink: &'a mut dyn Sink,
+    control: &'a Control,
+    meter: Meter<'a>,
+    shared: Shared<'a>,
+    outputs: Outputs<'a>,
+    fold: Option<Fold<'a>>,
+    summary: Summary,
+}
+
+impl<'a> Runner<'a> {
+    fn new(job: &'a Job, sink: &'a mut dyn Sink, control: &'a Control) -> Self {
+        Self {
+            job,
+            sink,
+            control,
+            meter: Meter::new(&job.options.limits),
+            shared: Shared::new(job, control),
+            outputs: Outputs::new(job),
+            fold: job.colour.as_ref().map(Fold::new),
+            summary: Summary::default(),
+        }
+    }
+
+    fn run(mut self) -> Result<Summary, Failure> {
+        let started = Instant::now();
+        self.sink.write(Stream::Listing, &listing::head(self.job))?;
+        self.sink.write(Stream::Results, &head(self.job))?;
+        if self.job.samples_name().is_some() {
+            self.sink.write(Stream::Samples, listing::SAMPLES_HEAD)?;
+        }
+        let mut replay = Replay::new(self.job);
+        loop {
+            let block = self.gather(&mut replay)?;
+            let Some(last) = block.last() else { break };
+            let fraction = last.fraction;
+            self.evaluate(block, &mut replay)?;
+            self.control.report(fraction);
+        }
+        self.summary.seconds = started.elapsed().as_secs_f64();
+        self.summary.evaluations = self.meter.evaluations;
+        self.sink.write(Stream::Listing, &listing::tail(self.summary.seconds))?;
+        if let Some(fold) = self.fold.take() {
+            let table = fold.table().map_err(|fault| Failure::Program(vec![*fault]))?;
+            self.summary.colour = Some(table);
+        }
+        Ok(self.summary)
+    }
+
+    /// The steps of the next block; empty behind the last step.
+    fn gather(&mut self, replay: &mut Replay<'_>) -> Result<Vec<Step>, Failure> {
+        let most = if self.job.in_order { 1 } else { BLOCK_STEPS };
+        let mut block = Vec::new();
+        let mut cost = 0.0;
+        while block.len() < most && cost < BLOCK_EVALUATIONS {
+            let index = self.summary.steps;
+            let Some(step) = replay.next_step().map_err(|fault| at_step(index, fault))? else {
+                break;
+            };
+            self.summary.steps += 1;
+            if self.summary.steps > self.job.options.limits.steps {
+                let limit = self.job.options.limits.steps;
+                return Err(Failure::Limit(format!("the loops have more than {limit} steps")));
+            }
+            cost += self.price(&step)?;
+            block.push(step);
+        }
+        Ok(block)
+    }
+
+    /// About how many directions the integrals of `step` have.
+    fn price(&self, step: &Step) -> Result<f64, Failure> {
+        let limit = self.job.options.limits.directions;
+        let mut cost = 0.0;
+        for (integral, plan) in step.integrals.iter().zip(&self.job.integrals) {
+            let estimate = Layout::estimate(&integral.region, &integral.sampling);
+            if estimate > limit {
+                return Err(Failure::Limit(format!(
+                    "{} would have {estimate:.3e} directions, more than {limit:e}: \
+                     make differential larger or minsamples and polygonsides smaller",
+                    plan.name
+                )));
+            }
+            cost += estimate;
+        }
+        Ok(cost)
+    }
+
+    fn evaluate(&mut self, block: Vec<Step>, replay: &mut Replay<'_>) -> Result<(), Failure> {
+        let values = self.shared.evaluate(&block, &mut self.meter)?;
+        for (step, values) in block.iter().zip(values) {
+            self.sink.write(Stream::Listing, &step.listing)?;
+            let line = self
+                .outputs
+                .line(step, &values)
+                .map_err(|fault| at_step(step.index, fault))?;
+            self.sink.write(Stream::Results, &line)?;
+            if let Some(fold) = &mut self.fold {
+                fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
+            }
+            if self.job.samples_name().is_some() {
+                let text = self.shared.samples(step);
+                self.sink.write(Stream::Samples, &text)?;
+            }
+            if self.job.in_order {
+                self.outputs.feed_back(&mut replay.scope);
+            }
+        }
+        self.summary.met.extend(self.shared.take_met());
+        Ok(())
+    }
+}
+
+/// A fault of the first step is a fault of the program; a later one ends the run.
+pub(crate) fn at_step(step: u64, fault: Fault) -> Failure {
+    if step == 0 { Failure::Program(vec![*fault]) } else { Failure::Step { step, fault } }
+}

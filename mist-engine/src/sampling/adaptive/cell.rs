@@ -1,0 +1,161 @@
+//! One rectangle of the adaptive subdivision, and its pair of rules.
+
+use glam::DVec3;
+use scattering::Mueller;
+
+use super::{Estimate, Integrand, rays::Rays};
+
+/// A rectangle [s₀, s₁] × [u₀, u₁] of the unit square of one interval of one slice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cell {
+    pub(super) slice: usize,
+    pub(super) interval: usize,
+    pub(super) s: (f64, f64),
+    pub(super) u: (f64, f64),
+}
+
+/// Nodes of a rule along one side.
+const SIDE: usize = 7;
+
+/// Evaluations of a cell.
+pub(super) const NODES: usize = SIDE * SIDE;
+
+/// Nodes of the seven-point Kronrod rule on [−1, 1]; every second one belongs to the three-point
+/// Gauss rule (A. S. Kronrod, *Nodes and weights of quadrature formulas*, 1965).
+const NODE: [f64; SIDE] = [
+    -0.960_491_268_708_020_283,
+    -0.774_596_669_241_483_377,
+    -0.434_243_749_346_802_558,
+    0.0,
+    0.434_243_749_346_802_558,
+    0.774_596_669_241_483_377,
+    0.960_491_268_708_020_283,
+];
+
+/// Weights of the Kronrod rule.
+const KRONROD: [f64; SIDE] = [
+    0.104_656_226_026_467_265,
+    0.268_488_089_868_333_440,
+    0.401_397_414_775_962_222,
+    0.450_916_538_658_474_142,
+    0.401_397_414_775_962_222,
+    0.268_488_089_868_333_440,
+    0.104_656_226_026_467_265,
+];
+
+/// Weights of the Gauss rule.
+const GAUSS: [f64; SIDE] = [0.0, 5.0 / 9.0, 0.0, 8.0 / 9.0, 0.0, 5.0 / 9.0, 0.0];
+
+impl Cell {
+    /// The halves, across p or across t.
+    pub(super) fn halves(self, along_p: bool) -> [Self; 2] {
+        if along_p {
+            let middle = 0.5 * (self.s.0 + self.s.1);
+            return [
+                Self { s: (self.s.0, middle), ..self },
+                Self { s: (middle, self.s.1), ..self },
+            ];
+        }
+        let middle = 0.5 * (self.u.0 + self.u.1);
+        [Self { u: (self.u.0, middle), ..self }, Self { u: (middle, self.u.1), ..self }]
+    }
+
+    /// The integral over the cell with its error, and whether the error is one along p.
+    pub(super) fn measure(&self, rays: &Rays, integrand: &Integrand<'_>) -> (Estimate, bool) {
+        let (at, jacobian) = self.nodes(rays);
+        let mut values = [Mueller::ZERO; NODES];
+        integrand.values(&at, &mut values);
+        for (value, factor) in values.iter_mut().zip(jacobian) {
+            // Directions of no weight lie on the edge of the region, at worst on the horizon.
+            *value = if factor == 0.0 { Mueller::ZERO } else { *value * factor };
+        }
+        judge(&values)
+    }
+
+    /// The directions of the nodes, and the solid angle per area of [−1, 1]².
+    fn nodes(&self, rays: &Rays) -> ([DVec3; NODES], [f64; NODES]) {
+        let (mut at, mut jacobian) = ([DVec3::Z; NODES], [0.0; NODES]);
+        let half = |(from, to): (f64, f64)| (0.5 * (from + to), 0.5 * (to - from));
+        let ((s, ds), (u, du)) = (half(self.s), half(self.u));
+        for i in 0..SIDE {
+            let ray = rays.ray(self.slice, self.interval, s + ds * NODE[i]);
+            for j in 0..SIDE {
+                let (v, per_area) = ray.at(u + du * NODE[j]);
+                at[SIDE * i + j] = v;
+                jacobian[SIDE * i + j] = per_area * ds * du;
+            }
+        }
+        (at, jacobian)
+    }
+}
+
+/// Integral and error from the values at the nodes, p slow and t fast, and whether the error is
+/// one along p.
+fn judge(values: &[Mueller; NODES]) -> (Estimate, bool) {
+    let mut estimate = Estimate { evaluations: NODES as u64, ..Estimate::default() };
+    let (mut worst_p, mut worst_t) = (0.0_f64, 0.0_f64);
+    for row in 0..4 {
+        for column in 0..4 {
+            let value = |k: usize| values[k].0[row][column];
+            let rule = |p: &[f64; SIDE], t: &[f64; SIDE]| -> f64 {
+                (0..NODES).map(|k| p[k / SIDE] * t[k % SIDE] * value(k)).sum()
+            };
+            let best = rule(&KRONROD, &KRONROD);
+            let (p, t) =
+                ((rule(&GAUSS, &KRONROD) - best).abs(), (rule(&KRONROD, &GAUSS) - best).abs());
+            let spread: f64 = (0..NODES)
+                .map(|k| KRONROD[k / SIDE] * KRONROD[k % SIDE] * (value(k) - 0.25 * best).abs())
+                .sum();
+            estimate.matrix.0[row][column] = best;
+            estimate.error.0[row][column] = sharpened(p, spread) + sharpened(t, spread);
+            (worst_p, worst_t) = (worst_p.max(p), worst_t.max(t));
+        }
+    }
+    (estimate, worst_p > worst_t)
+}
+
+/// The error of the better rule from the disagreement of the two.
+///
+/// The Gauss rule is of degree 5 and the Kronrod rule of degree 11, so for smooth functions the
+/// error of the latter falls with the square of the disagreement, with a factor that was at most
+/// 15 for 250 facet lobes of slopes from 0.0003 to 1. It is never less than the rounding of a sum
+/// of this size.
+fn sharpened(disagreement: f64, spread: f64) -> f64 {
+    if spread == 0.0 {
+        return disagreement;
+    }
+    let ratio = disagreement / spread;
+    disagreement * (SAFETY * ratio).min(1.0) + f64::EPSILON * spread
+}
+
+/// The factor of the square; disagreements of more than a SAFETYth of the spread are taken as
+/// they are.
+const SAFETY: f64 = 50.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn power(rule: &[f64; SIDE], n: i32) -> f64 {
+        (0..SIDE).map(|k| rule[k] * NODE[k].powi(n)).sum()
+    }
+
+    #[test]
+    fn the_rules_are_exact_up_to_their_degrees() {
+        for n in 0..=11 {
+            let exact = if n % 2 == 0 { 2.0 / f64::from(n + 1) } else { 0.0 };
+            assert!((power(&KRONROD, n) - exact).abs() < 1e-15, "degree {n}");
+            assert!(n > 5 || (power(&GAUSS, n) - exact).abs() < 1e-15, "degree {n}");
+        }
+        assert!((power(&KRONROD, 12) - 2.0 / 13.0).abs() > 1e-6);
+    }
+
+    #[test]
+    fn halves_cover_the_cell() {
+        let cell = Cell { slice: 0, interval: 1, s: (0.0, 1.0), u: (0.5, 1.0) };
+        let [left, right] = cell.halves(true);
+        assert_eq!((left.s, right.s, left.u), ((0.0, 0.5), (0.5, 1.0), cell.u));
+        let [low, high] = cell.halves(false);
+        assert_eq!((low.u, high.u, low.s), ((0.5, 0.75), (0.75, 1.0), cell.s));
+    }
+}

@@ -1,0 +1,152 @@
+//! The nested loops of VARY.
+//!
+//! The last declared loop runs fastest. A loop does not set a variable but replaces the text of
+//! its entry in VARIABLES; what the other entries make of it is decided when the step evaluates
+//! them.
+
+mod for_loop;
+mod list_loop;
+
+pub(crate) use for_loop::{ForPlan, ForState};
+pub(crate) use list_loop::{Column, ListPlan, ListState};
+
+use mist_format::expr::Stack;
+use scattering::Mode;
+
+use crate::{fault::Fault, scope::Scope, step::Cell};
+
+/// A loop as compiled.
+pub(crate) enum LoopPlan {
+    For(ForPlan),
+    List(ListPlan),
+}
+
+impl LoopPlan {
+    /// Entries of VARIABLES that the loop writes.
+    pub(crate) fn entries(&self) -> Vec<usize> {
+        match self {
+            Self::For(plan) => vec![plan.entry],
+            Self::List(plan) => plan.columns.iter().map(|column| column.entry).collect(),
+        }
+    }
+
+    /// Names of its columns in the results.
+    pub(crate) fn titles(&self) -> Vec<&str> {
+        match self {
+            Self::For(plan) => vec![plan.title.as_str()],
+            Self::List(plan) => plan.columns.iter().map(|c| c.title.as_str()).collect(),
+        }
+    }
+}
+
+/// What a loop writes into an entry of VARIABLES.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Written {
+    /// The entry.
+    pub(crate) entry: usize,
+    /// Its new text.
+    pub(crate) text: String,
+}
+
+/// What loops need to evaluate their expressions.
+pub(crate) struct Context<'a> {
+    pub(crate) scope: &'a mut Scope,
+    pub(crate) stack: &'a mut Stack,
+    pub(crate) names: &'a crate::scope::Names,
+    pub(crate) mode: Mode,
+}
+
+/// Where a loop stands.
+pub(crate) enum LoopState {
+    For(ForState),
+    List(ListState),
+}
+
+/// All loops, the first declared first.
+pub(crate) struct Sweep<'j> {
+    plans: &'j [LoopPlan],
+    states: Vec<LoopState>,
+    /// Texts written since they were last taken.
+    written: Vec<Written>,
+    /// How often each loop was advanced since it was reset.
+    counts: Vec<u64>,
+}
+
+impl<'j> Sweep<'j> {
+    /// Every loop at its first value.
+    pub(crate) fn start(plans: &'j [LoopPlan], context: &mut Context<'_>) -> Result<Self, Fault> {
+        let mut sweep = Self {
+            plans,
+            states: Vec::new(),
+            written: Vec::new(),
+            counts: vec![0; plans.len()],
+        };
+        for plan in plans {
+            let state = match plan {
+                LoopPlan::For(plan) => LoopState::For(ForState::start(plan, context, &mut sweep.written)?),
+                LoopPlan::List(plan) => LoopState::List(ListState::start(plan, context, &mut sweep.written)?),
+            };
+            sweep.states.push(state);
+        }
+        Ok(sweep)
+    }
+
+    /// Goes to the next combination; false after the last one.
+    pub(crate) fn advance(&mut self, context: &mut Context<'_>) -> Result<bool, Fault> {
+        for at in (0..self.plans.len()).rev() {
+            let written = &mut self.written;
+            let inside = match (&self.plans[at], &mut self.states[at]) {
+                (LoopPlan::For(plan), LoopState::For(state)) => state.advance(plan, context, written)?,
+                (LoopPlan::List(plan), LoopState::List(state)) => {
+                    state.advance(plan, context, written)?
+                }
+                _ => false,
+            };
+            if inside {
+                self.counts[at] += 1;
+                return Ok(true);
+            }
+            self.counts[at] = 0;
+            match (&self.plans[at], &mut self.states[at]) {
+                (LoopPlan::For(plan), LoopState::For(state)) => {
+                    *state = ForState::start(plan, context, written)?;
+                }
+                (LoopPlan::List(plan), LoopState::List(state)) => {
+                    *state = ListState::start(plan, context, written)?;
+                }
+                _ => {}
+            }
+        }
+        Ok(false)
+    }
+
+    /// What the loops have written into entries since the last call, oldest first.
+    pub(crate) fn take_written(&mut self) -> std::vec::Drain<'_, Written> {
+        self.written.drain(..)
+    }
+
+    /// The loop columns of the current step: the last declared loop first.
+    pub(crate) fn cells(&self) -> Vec<Cell> {
+        let both = self.plans.iter().zip(&self.states).rev();
+        both.flat_map(|(plan, state)| match (plan, state) {
+            (LoopPlan::For(plan), LoopState::For(state)) => vec![state.cell(plan)],
+            (LoopPlan::List(plan), LoopState::List(state)) => state.cells(plan),
+            _ => Vec::new(),
+        })
+        .collect()
+    }
+
+    /// How far the first declared loop is, from 0 to 1.
+    pub(crate) fn fraction(&self) -> f64 {
+        match (self.plans.first(), self.states.first()) {
+            (Some(LoopPlan::For(_)), Some(LoopState::For(state))) => state.fraction(),
+            (Some(LoopPlan::List(plan)), Some(LoopState::List(state))) => state.fraction(plan),
+            _ => 0.0,
+        }
+    }
+
+    /// How often each loop was advanced: the place of the step in the nest.
+    pub(crate) fn counts(&self) -> &[u64] {
+        &self.counts
+    }
+}

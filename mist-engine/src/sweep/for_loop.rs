@@ -1,0 +1,118 @@
+//! `FOR v FROM a TO b BY s`.
+//!
+//! The value is accumulated: a, b and s are evaluated whenever they are used, with the
+//! variables of the step that just ended. The first value is never tested.
+
+use mist_format::{
+    Diagnostic,
+    expr::Expr,
+    number,
+    program::{ForLoop, Text},
+};
+
+use super::{Context, Written};
+use crate::{
+    fault::{Fault, placed},
+    quirk::Quirk,
+    step::Cell,
+};
+
+/// A FOR loop as compiled.
+pub(crate) struct ForPlan {
+    pub(crate) statement: ForLoop,
+    /// The entry of VARIABLES that it writes.
+    pub(crate) entry: usize,
+    /// Name of its column.
+    pub(crate) title: String,
+    /// Whether the entry is a text for the model, shown as it is written.
+    pub(crate) is_text: bool,
+    pub(crate) from: Expr,
+    pub(crate) to: Expr,
+    pub(crate) by: Expr,
+    /// Whether a bound reads results of earlier steps, so that it may come to an end later.
+    pub(crate) fed_back: bool,
+}
+
+/// Where a FOR loop stands.
+pub(crate) struct ForState {
+    value: f64,
+    fraction: f64,
+}
+
+fn bound(text: &Text, expr: &Expr, context: &mut Context<'_>) -> Result<f64, Fault> {
+    context.scope.number(expr, context.stack).map_err(|error| {
+        let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
+        placed(text, error.diagnostic(known))
+    })
+}
+
+impl ForState {
+    pub(crate) fn start(
+        plan: &ForPlan,
+        context: &mut Context<'_>,
+        written: &mut Vec<Written>,
+    ) -> Result<Self, Fault> {
+        let value = bound(&plan.statement.from, &plan.from, context)?;
+        let state = Self { value, fraction: 0.0 };
+        state.write(plan, written);
+        Ok(state)
+    }
+
+    /// Goes to the next value; false when it lies behind the last one.
+    pub(crate) fn advance(
+        &mut self,
+        plan: &ForPlan,
+        context: &mut Context<'_>,
+        written: &mut Vec<Written>,
+    ) -> Result<bool, Fault> {
+        let before = self.value;
+        let by = bound(&plan.statement.by, &plan.by, context)?;
+        self.value += by;
+        let from = bound(&plan.statement.from, &plan.from, context)?;
+        let to = bound(&plan.statement.to, &plan.to, context)?;
+        self.fraction = (self.value - from) / (to - from);
+        let inside = if Quirk::LostNegativeEnd.applies_in(context.mode) {
+            // The factors are NIST's; a negative end moves the wrong way.
+            if to > from { self.value <= to * 1.00000000001 } else { self.value >= to * 0.999999999999 }
+        } else {
+            let slack = 1e-6 * by.abs();
+            if to > from { self.value <= to + slack } else { self.value >= to - slack }
+        };
+        if inside && !plan.fed_back {
+            let approaches = if to > from { by > 0.0 } else { by < 0.0 };
+            if !approaches || self.value == before {
+                return Err(endless(plan, from, to, by));
+            }
+        }
+        if inside {
+            self.write(plan, written);
+        }
+        Ok(inside)
+    }
+
+    pub(crate) fn cell(&self, plan: &ForPlan) -> Cell {
+        if plan.is_text { Cell::Text(number::loop_text(self.value)) } else { Cell::Number(self.value) }
+    }
+
+    pub(crate) fn fraction(&self) -> f64 {
+        self.fraction
+    }
+
+    fn write(&self, plan: &ForPlan, written: &mut Vec<Written>) {
+        written.push(Written { entry: plan.entry, text: number::loop_text(self.value) });
+    }
+}
+
+fn endless(plan: &ForPlan, from: f64, to: f64, by: f64) -> Fault {
+    let message = format!("this loop never ends: from {from} in steps of {by} it does not pass {to}");
+    let help = if from == to {
+        "for a single value assign it in VARIABLES, or write BY -1".to_owned()
+    } else {
+        format!("give BY the sign of the way from {from} to {to}, and a size that changes the value")
+    };
+    Box::new(
+        Diagnostic::error("loop/endless", plan.statement.span, message)
+            .help(help)
+            .note("NIST's program repeats this loop forever"),
+    )
+}

@@ -1,0 +1,124 @@
+//! `LIST file`: one row per value.
+//!
+//! A cell is evaluated when its row is activated, with the variables of the step before; its
+//! 16-digit text becomes the text of the entry. The results show the cell's own expression,
+//! evaluated again with the new variables.
+
+use std::sync::Arc;
+
+use mist_format::{
+    Diagnostic,
+    expr::{Expr, Value},
+    number::whole_number,
+    program::ListLoop,
+    table::ListTable,
+};
+
+use super::{Context, Written};
+use crate::{fault::Fault, quirk::dialect, step::Cell};
+
+/// A LIST loop as compiled.
+pub(crate) struct ListPlan {
+    pub(crate) statement: ListLoop,
+    pub(crate) file: Arc<ListTable>,
+    pub(crate) columns: Vec<Column>,
+    /// Whether a cell reads results of earlier steps.
+    pub(crate) fed_back: bool,
+}
+
+/// A column of a LIST file.
+pub(crate) struct Column {
+    /// The entry of VARIABLES that it writes.
+    pub(crate) entry: usize,
+    /// The name in the file.
+    pub(crate) title: String,
+    /// Whether the entry is a text for the model.
+    pub(crate) is_text: bool,
+}
+
+/// Where a LIST loop stands.
+pub(crate) struct ListState {
+    row: usize,
+    cells: Vec<Cell>,
+}
+
+impl ListState {
+    pub(crate) fn start(
+        plan: &ListPlan,
+        context: &mut Context<'_>,
+        written: &mut Vec<Written>,
+    ) -> Result<Self, Fault> {
+        let mut state = Self { row: 0, cells: Vec::new() };
+        state.activate(plan, context, written)?;
+        Ok(state)
+    }
+
+    /// Goes to the next row; false behind the last one.
+    pub(crate) fn advance(
+        &mut self,
+        plan: &ListPlan,
+        context: &mut Context<'_>,
+        written: &mut Vec<Written>,
+    ) -> Result<bool, Fault> {
+        self.row += 1;
+        if self.row >= plan.file.row_count() {
+            return Ok(false);
+        }
+        self.activate(plan, context, written)?;
+        Ok(true)
+    }
+
+    pub(crate) fn cells(&self, _: &ListPlan) -> Vec<Cell> {
+        self.cells.clone()
+    }
+
+    pub(crate) fn fraction(&self, plan: &ListPlan) -> f64 {
+        self.row as f64 / plan.file.row_count() as f64
+    }
+
+    fn activate(
+        &mut self,
+        plan: &ListPlan,
+        context: &mut Context<'_>,
+        written: &mut Vec<Written>,
+    ) -> Result<(), Fault> {
+        self.cells.clear();
+        for (at, column) in plan.columns.iter().enumerate() {
+            let raw = plan.file.cell(self.row, at);
+            let (text, cell) = if column.is_text {
+                (raw.to_owned(), Cell::Text(raw.to_owned()))
+            } else {
+                evaluate(plan, raw, self.row, context)?
+            };
+            written.push(Written { entry: column.entry, text });
+            self.cells.push(cell);
+        }
+        Ok(())
+    }
+}
+
+/// The text that a cell gives its entry, and what the results show.
+fn evaluate(
+    plan: &ListPlan,
+    raw: &str,
+    row: usize,
+    context: &mut Context<'_>,
+) -> Result<(String, Cell), Fault> {
+    if let Some(x) = whole_number(raw) {
+        return Ok((Value::from(x).to_text(), Cell::Number(x)));
+    }
+    let name = plan.statement.file.as_str();
+    let wrong = |diagnostic: Diagnostic| {
+        let place = format!("row {} of {name}: {}", row + 1, diagnostic.message);
+        Box::new(Diagnostic { span: plan.statement.span, message: place, ..diagnostic })
+    };
+    let mut expr =
+        Expr::compile(raw, dialect(context.mode)).map_err(|error| wrong(error.diagnostic()))?;
+    // A name that no entry and no result has stays without a slot: unknown when it is evaluated.
+    expr.bind(|name| context.names.find(name).unwrap_or(u32::MAX));
+    let value = context.scope.value(&expr, context.stack).map_err(|error| {
+        let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
+        wrong(error.diagnostic(known))
+    })?;
+    Ok((value.to_text(), Cell::Expression(Box::new(expr))))
+}

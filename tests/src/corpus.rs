@@ -1,0 +1,139 @@
+//! The conformance programs: their manifest, their files, one run of one of them.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use mist_engine::{
+    Control, Failure, FileError, Files, MemorySink, Options, Summary, compile,
+};
+use mist_format::Diagnostic;
+use scattering::Mode;
+use serde::Deserialize;
+
+/// What the manifest says of one program.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Case {
+    /// Name of the program and its folder.
+    pub name: String,
+    /// What it is about, such as `shapes/CIRCLE`.
+    pub area: String,
+    /// `ok`, `mc`, `error` or `hang`.
+    pub kind: String,
+    /// Arguments of NIST's program: the program and maybe a job name.
+    pub args: Vec<String>,
+    /// Allowed relative difference.
+    #[serde(default)]
+    pub rtol: f64,
+    /// Allowed difference as a fraction of the largest output of the row.
+    #[serde(default)]
+    pub atol_frac: f64,
+    /// Lines of text at the top of the results.
+    #[serde(default)]
+    pub header_lines: usize,
+    /// Loop columns of the results.
+    #[serde(default)]
+    pub loop_columns: usize,
+    /// The files that NIST's program wrote.
+    #[serde(default)]
+    pub files: Vec<Written>,
+    /// Mean and standard deviation of Monte Carlo results, one per row.
+    #[serde(default)]
+    pub mc: Vec<MonteCarlo>,
+}
+
+/// A file that NIST's program wrote.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Written {
+    /// Its name.
+    pub name: String,
+    /// `results`, `listing` or `samples`.
+    pub role: String,
+}
+
+/// What many Monte Carlo runs of NIST's program gave.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub struct MonteCarlo {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation of one run.
+    pub sigma: f64,
+}
+
+#[derive(Deserialize)]
+struct Manifest {
+    programs: Vec<Case>,
+}
+
+/// The folder with the programs.
+pub fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/programs")
+}
+
+/// Every program of the manifest in `folder`.
+///
+/// # Panics
+///
+/// If there is no readable manifest.
+pub fn cases(folder: &Path) -> Vec<Case> {
+    let text = fs::read_to_string(folder.join("manifest.json")).expect("the manifest is there");
+    serde_json::from_str::<Manifest>(&text).expect("the manifest has its form").programs
+}
+
+/// The files of one folder.
+struct Folder(PathBuf);
+
+impl Files for Folder {
+    fn read(&self, name: &str) -> Result<Arc<str>, FileError> {
+        let bytes = fs::read(self.0.join(name))
+            .map_err(|e| FileError { name: name.into(), reason: e.to_string() })?;
+        Ok(latin1(&bytes).into())
+    }
+}
+
+/// The text of a file that need not be UTF-8.
+fn latin1(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec())
+        .unwrap_or_else(|_| bytes.iter().map(|byte| char::from(*byte)).collect())
+}
+
+/// What came of a run.
+pub type Outcome = Result<(MemorySink, Summary), Failure>;
+
+/// Runs `case` of `folder` in `mode`.
+///
+/// # Errors
+///
+/// As the program has them.
+///
+/// # Panics
+///
+/// If the program's file cannot be read.
+pub fn run(folder: &Path, case: &Case, mode: Mode) -> Outcome {
+    let folder = folder.join(&case.name);
+    let file = &case.args[0];
+    let Ok(bytes) = fs::read(folder.join(file)) else {
+        let missing = Diagnostic::error("file", mist_format::Span::new(0, 0), "no such program");
+        return Err(Failure::Program(vec![missing]));
+    };
+    let stem = file.rsplit_once('.').map_or(file.as_str(), |(stem, _)| stem);
+    let job = case.args.get(1).map_or(stem, String::as_str).to_owned();
+    let options = Options { mode, job, ..Options::default() };
+    let job = compile(&latin1(&bytes), Arc::new(Folder(folder)), &options)
+        .map_err(Failure::Program)?;
+    let mut sink = MemorySink::default();
+    let summary = job.run(&mut sink, &Control::default())?;
+    Ok((sink, summary))
+}
+
+/// The text that NIST's program wrote into `name`.
+///
+/// # Panics
+///
+/// If it is missing.
+pub fn expected(folder: &Path, case: &Case, name: &str) -> String {
+    let path = folder.join(&case.name).join("expected").join(name);
+    latin1(&fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())))
+}
