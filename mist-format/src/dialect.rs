@@ -123,3 +123,18 @@ impl Quirk {
         !dialect.is_compat() && self.sound_reading() == SoundReading::Refused
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_quirk_acts_in_compat_and_is_the_same_refused_or_plain_in_sound() {
+        for quirk in Quirk::ALL {
+            assert!(quirk.applies_in(Dialect::Compat) && !quirk.refused_in(Dialect::Compat));
+            let sound = quirk.sound_reading();
+            assert_eq!(quirk.applies_in(Dialect::Sound), sound == SoundReading::Same);
+            assert_eq!(quirk.refused_in(Dialect::Sound), sound == SoundReading::Refused);
+        }
+    }
+}

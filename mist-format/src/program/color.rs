@@ -154,3 +154,36 @@ impl Color {
         Self { entries: self.entries.into_iter().map(plain).collect(), span: Span::default() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Dialect, program};
+
+    const SIX: &str = "MODEL = M VARIABLES: minsamples=1 differential=1 incidentangle=0 rotation=0 \
+                       incidentpol=(1,0,0,0) END VARY: END INTEGRALS: END OUTPUTS: END FILES: END";
+
+    #[test]
+    fn color_is_read_behind_files_and_its_labels_have_places() {
+        let text =
+            format!("{SIX}\ncolor:\n spectrum = \"f0, f1,f2 ,f3\" filter = linear(0)\nEND x");
+        for dialect in [Dialect::Sound, Dialect::Compat] {
+            let program = program::parse(&text, dialect).unwrap();
+            let color = program.color.unwrap();
+            let labels = color.spectrum();
+            let places: Vec<_> = labels.iter().map(|label| label.span().of(&text)).collect();
+            assert_eq!(places, ["f0", "f1", "f2", "f3"]);
+            assert_eq!(color.filters().count(), 1);
+            assert_eq!(color.last(ColorKey::Table), None);
+            assert_eq!(program.trailing.as_str(), " x");
+        }
+    }
+
+    #[test]
+    fn without_color_the_rest_is_never_read() {
+        let text = format!("{SIX} this is \"never read ; COLOR:");
+        let program = program::parse(&text, Dialect::Sound).unwrap();
+        assert_eq!(program.color, None);
+        assert_eq!(program.trailing.as_str(), " this is \"never read ; COLOR:");
+    }
+}
