@@ -17,6 +17,7 @@
 //! absorbing, Stokes vectors (I, Q, U, V) with Q = I_s − I_p. The crate knows no text formats,
 //! no files and no spectra.
 
+pub mod cross_grating;
 pub mod defect;
 pub mod distribution;
 pub mod geometry;

@@ -46,6 +46,8 @@ pub enum Family {
     SurfaceSize,
     /// Line gratings.
     Grating,
+    /// Crossed gratings.
+    CrossGrating,
 }
 
 impl Family {
@@ -64,6 +66,7 @@ impl Family {
         Self::VolumeSize,
         Self::SurfaceSize,
         Self::Grating,
+        Self::CrossGrating,
     ];
 
     /// The name of the family's abstract base class.
@@ -82,6 +85,7 @@ impl Family {
             Self::VolumeSize => "VolumeParticleSizeDistribution",
             Self::SurfaceSize => "SurfaceParticleSizeDistribution",
             Self::Grating => "Grating",
+            Self::CrossGrating => "CrossGrating",
         }
     }
 
@@ -104,6 +108,7 @@ impl Family {
             Self::VolumeSize => list::<dyn crate::size::VolumeSize>(),
             Self::SurfaceSize => list::<dyn crate::size::SurfaceSize>(),
             Self::Grating => list::<dyn crate::grating::Grating>(),
+            Self::CrossGrating => list::<dyn crate::cross_grating::CrossGrating>(),
         }
     }
 }

@@ -146,13 +146,9 @@ impl Drawing {
 
     /// All slices, the topmost first.
     fn slices(&self, layers: usize) -> Result<Vec<Slice>, String> {
-        let parts: Vec<(f64, f64)> = self.heights.windows(2).map(|y| (y[0], y[1])).collect();
-        let runs: Vec<f64> = parts.iter().map(|&part| self.run(part)).collect();
-        let total: f64 = runs.iter().sum();
+        let parts = shares(&self.heights, layers, |low, high| self.run(low, high));
         let mut slices = Vec::new();
-        for (&(low, high), run) in parts.iter().zip(&runs).rev() {
-            let share = if total > 0.0 { (run / total * layers as f64 + 0.5).trunc() } else { 1.0 };
-            let count = (share as usize).max(1);
+        for (low, high, count) in parts.into_iter().rev() {
             let thickness = (high - low) / count as f64;
             for k in (0..count).rev() {
                 let pattern = self.pattern(low + (k as f64 + 0.5) * thickness)?;
@@ -163,7 +159,7 @@ impl Drawing {
     }
 
     /// The largest horizontal run of a boundary between two heights.
-    fn run(&self, (low, high): (f64, f64)) -> f64 {
+    fn run(&self, low: f64, high: f64) -> f64 {
         let middle = 0.5 * (low + high);
         self.boundaries
             .iter()
@@ -203,6 +199,22 @@ impl Drawing {
             .map(|(_, material)| material)
             .ok_or_else(|| format!("no boundary tells the material at height {y}"))
     }
+}
+
+/// (bottom, top, number of slices) of the parts between neighbouring `heights`: of about `layers`
+/// slices each part gets its share by its horizontal `run`, and at least one.
+pub(crate) fn shares(
+    heights: &[f64],
+    layers: usize,
+    run: impl Fn(f64, f64) -> f64,
+) -> Vec<(f64, f64, usize)> {
+    let runs: Vec<f64> = heights.windows(2).map(|y| run(y[0], y[1])).collect();
+    let total: f64 = runs.iter().sum();
+    let count = |run: f64| {
+        let share = if total > 0.0 { (run / total * layers as f64 + 0.5).trunc() } else { 1.0 };
+        (share as usize).max(1)
+    };
+    heights.windows(2).zip(runs).map(|(y, run)| (y[0], y[1], count(run))).collect()
 }
 
 fn boundary(

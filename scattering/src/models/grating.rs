@@ -3,8 +3,9 @@
 use super::Brdf;
 use crate::spec::Spec;
 
+pub mod cross;
 pub mod line;
 mod orders;
 
 /// The models of this group, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Brdf>] = &[&line::SPEC];
+pub const ALL: &[&Spec<dyn Brdf>] = &[&line::SPEC, &cross::SPEC];

@@ -308,3 +308,71 @@ fn dispersive_lines_have_nists_spectrum() {
         compare(&format!("b05_rcw_spectral at {} um", row[0]), &got, &row[1..]);
     }
 }
+
+/// The value of one program of a crossed grating: order 0, three pairs of polarizations.
+fn check_crossed(program: &str, model: &Model, rotation: f64) {
+    for row in rows(program) {
+        let theta = row[0] * DEG;
+        let m = projected(model, theta, rotation, &direction(theta.sin(), 0.0));
+        let got = [
+            ([1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]),
+            ([1.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]),
+            ([1.0, 0.48, -0.6, 0.64], [0.5, 0.1, -0.35, 0.2]),
+        ]
+        .map(|(from, to)| seen(&m, from, to));
+        compare(&format!("{program} at {} deg", row[0]), &got, &row[1..]);
+    }
+}
+
+fn crossed_model(lambda: f64, grating: Value) -> Model {
+    model(
+        "CrossRCW_BRDF_Model",
+        &[
+            ("lambda", number(lambda)),
+            ("alpha", number(0.02)),
+            ("order1", integer(2)),
+            ("order2", integer(2)),
+            ("substrate", index(1.5, 0.0)),
+            ("grating", grating),
+        ],
+    )
+}
+
+#[test]
+fn line_grating_as_a_crossed_one_has_nists_order() {
+    let lines = member(
+        "Single_Line_Grating",
+        &[
+            ("period", number(0.6)),
+            ("medium_t", index(1.5, 0.0)),
+            ("material", index(2.0, 0.0)),
+            ("height", number(0.15)),
+            ("topwidth", number(0.25)),
+            ("bottomwidth", number(0.3)),
+            ("nlevels", integer(2)),
+        ],
+    );
+    let grating = member("OneD_CrossGrating", &[("medium_t", index(1.5, 0.0)), ("grating", lines)]);
+    check_crossed("programs/v_crossrcw_oned", &crossed_model(0.621, grating), 0.144);
+}
+
+#[test]
+fn conical_holes_have_nists_order() {
+    let grating = member(
+        "Cylinder_CrossGrating",
+        &[
+            ("medium_t", index(1.5, 0.0)),
+            ("grid1", integer(64)),
+            ("grid2", integer(64)),
+            ("d1", number(0.5)),
+            ("d2", number(0.411)),
+            ("thickness", number(0.12)),
+            ("inside", index(1.0, 0.0)),
+            ("outside", index(2.0, 0.0)),
+            ("rtop", Value::Table(Table::constant(0.15))),
+            ("rbottom", Value::Table(Table::constant(0.12))),
+            ("nlevels", integer(2)),
+        ],
+    );
+    check_crossed("programs/v_crossrcw_holes", &crossed_model(0.56, grating), 0.145);
+}

@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// Largest number of harmonics of a problem; the matrices have its square elements.
-const MOST_HARMONICS: usize = 3000;
+const MOST_HARMONICS: usize = 1500;
 
 /// The order `name` of a truncation.
 pub(super) fn order(node: &Node, name: &str) -> Result<usize, ParamError> {

@@ -1,0 +1,66 @@
+//! A line grating as a crossed one: its lines run along axis 2.
+//!
+//! The period of the line grating is measured across the lines, so d₁ = period / cos ζ.
+//!
+//! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
+
+use super::{CrossGrating, CrossPattern, CrossProfile, CrossSlice, Lattice, MEDIA, Media, lean};
+use crate::{
+    grating::{Grating, positive},
+    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+};
+
+const OWN: &[Param] = &[
+    Param::number("d2", "0.5", "um", "Period along axis 2"),
+    Param::number("zeta", "0", "deg", "Angle from y to axis 2"),
+    Param::member("grating", Family::Grating, "Grating", "Single_Line_Grating", "The line grating"),
+];
+
+/// How programs name, parameterize and build a [`OneD`].
+pub const SPEC: Spec<dyn CrossGrating> = Spec {
+    class: Class {
+        name: "OneD_CrossGrating",
+        parent: "CrossGrating",
+        summary: "Line grating as a crossed grating",
+        equation: "lines along axis 2",
+        source: "li-1997",
+        params: &[MEDIA, OWN],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(OneD::read(node)?)),
+};
+
+/// A line grating.
+pub struct OneD {
+    media: Media,
+    d2: f64,
+    zeta: f64,
+    grating: Box<dyn Grating>,
+}
+
+impl OneD {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        Ok(Self {
+            media: Media::read(node),
+            d2: positive(node, "d2")?,
+            zeta: lean(node, "zeta")?,
+            grating: node.member::<dyn Grating>("grating")?,
+        })
+    }
+}
+
+impl CrossGrating for OneD {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
+        let lines = self.grating.at(lambda).map_err(|error| error.inside("grating"))?;
+        self.media.starts_with(lambda, "grating.medium_i", lines.above)?;
+        self.media.ends_with(lambda, "grating.medium_t", lines.below)?;
+        let d1 = lines.period / self.zeta.cos();
+        let slices = lines
+            .slices
+            .into_iter()
+            .map(|slice| CrossSlice::new(slice.thickness, CrossPattern::Along1(slice.pattern)))
+            .collect();
+        let lattice = Lattice { d1, d2: self.d2, zeta: self.zeta };
+        Ok(self.media.profile(lambda, lattice, slices))
+    }
+}

@@ -1,0 +1,236 @@
+//! The material over one cell of a slice as operators on two-dimensional harmonics.
+//!
+//! Three matrices describe a constant c: E, the plain series; A, the series along axis 2 of the
+//! inverse of the series along axis 1 of 1/c; and B, the same with the axes exchanged. Between
+//! D and the Cartesian field they give, with s = sin ζ and c = cos ζ,
+//!
+//! $$ \epsilon_{xx} = c^2 A + s^2 E, \quad \epsilon_{xy} = sc\,(E - A), \quad
+//! \epsilon_{yy} = B + s^2 (A - E) $$
+//!
+//! For ζ = 0 these are Li's rules. For ζ ≠ 0 they are exact for lines along either axis, where
+//! E equals A or B, and for a cell with edges along both axes they replace the coupling of the
+//! oblique components by A + B − E.
+//!
+//! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
+
+use std::f64::consts::TAU;
+
+use faer::Scale;
+use num_complex::Complex64;
+
+use super::{CrossSlice, Grid};
+use crate::{
+    grating::{Material, Pattern},
+    rcw::{
+        Matrix,
+        layer::{Operators, Tensor},
+        toeplitz::{Series, inverse},
+    },
+};
+
+/// The material over one cell.
+#[derive(Clone, Debug)]
+pub enum CrossPattern {
+    /// Varies along axis 1 alone.
+    Along1(Pattern),
+    /// Varies along axis 2 alone.
+    Along2(Pattern),
+    /// Pixels.
+    Grid(Grid),
+}
+
+/// Which harmonics are kept: −`order1`…`order1` by −`order2`…`order2`, axis 2 running fastest.
+#[derive(Clone, Copy, Debug)]
+pub struct Truncation {
+    /// Highest harmonic along axis 1.
+    pub order1: usize,
+    /// Highest harmonic along axis 2.
+    pub order2: usize,
+}
+
+impl Truncation {
+    /// Number of harmonics along each axis.
+    fn sizes(&self) -> [usize; 2] {
+        [2 * self.order1 + 1, 2 * self.order2 + 1]
+    }
+
+    /// The orders (i, j) of all harmonics.
+    pub fn harmonics(&self) -> Vec<(isize, isize)> {
+        let (last1, last2) = (self.order1 as isize, self.order2 as isize);
+        (-last1..=last1).flat_map(|i| (-last2..=last2).map(move |j| (i, j))).collect()
+    }
+}
+
+/// A constant as three matrices, and the inverse of its normal part.
+struct Factors {
+    a: Matrix,
+    b: Matrix,
+    plain: Matrix,
+    normal_inverse: Matrix,
+}
+
+impl CrossSlice {
+    /// What the slice of `depth` (in 1/k₀) does to the harmonics, axis 2 leaning by `zeta`.
+    pub fn operators(&self, kept: Truncation, zeta: f64, depth: f64) -> Operators {
+        let (epsilon, mu) = match &self.pattern {
+            CrossPattern::Along1(pattern) => {
+                let line = pattern.operators(kept.order1, depth);
+                let spread = |m: &Matrix| spread_1(m, kept.sizes()[1]);
+                (along(&line.epsilon, spread, false), along(&line.mu, spread, false))
+            }
+            CrossPattern::Along2(pattern) => {
+                let line = pattern.operators(kept.order2, depth);
+                let spread = |m: &Matrix| spread_2(m, kept.sizes()[0]);
+                (along(&line.epsilon, spread, true), along(&line.mu, spread, true))
+            }
+            CrossPattern::Grid(grid) => {
+                (grid.factors(kept, |m| m.epsilon), grid.factors(kept, |m| m.mu))
+            }
+        };
+        let mut operators = Operators { depth, epsilon: epsilon.tensor(zeta), mu: mu.tensor(zeta) };
+        if self.shift != (0.0, 0.0) {
+            self.shift(&mut operators.epsilon, kept);
+            self.shift(&mut operators.mu, kept);
+        }
+        operators
+    }
+
+    /// Moves a tensor sideways: c_{h−h'} gets the phase of the shift.
+    fn shift(&self, tensor: &mut Tensor, kept: Truncation) {
+        let phases: Vec<Complex64> = kept
+            .harmonics()
+            .iter()
+            .map(|&(i, j)| {
+                Complex64::cis(-TAU * (i as f64 * self.shift.0 + j as f64 * self.shift.1))
+            })
+            .collect();
+        let turn = |m: &Matrix| {
+            Matrix::from_fn(m.nrows(), m.ncols(), |a, b| phases[a] * m[(a, b)] * phases[b].conj())
+        };
+        tensor.xx = turn(&tensor.xx);
+        tensor.xy = tensor.xy.as_ref().map(turn);
+        tensor.yy = turn(&tensor.yy);
+        tensor.zz_inverse = turn(&tensor.zz_inverse);
+    }
+}
+
+/// A line pattern's tensor in two dimensions; `second` if it varies along axis 2.
+fn along(tensor: &Tensor, spread: impl Fn(&Matrix) -> Matrix, second: bool) -> Factors {
+    let (across, lengthwise) = (spread(&tensor.xx), spread(&tensor.yy));
+    let plain = lengthwise.clone();
+    let (a, b) = if second { (lengthwise, across) } else { (across, lengthwise) };
+    Factors { a, b, plain, normal_inverse: spread(&tensor.zz_inverse) }
+}
+
+/// m ⊗ 1: harmonics of axis 2 keep to themselves.
+fn spread_1(m: &Matrix, n2: usize) -> Matrix {
+    let n = m.nrows() * n2;
+    Matrix::from_fn(
+        n,
+        n,
+        |a, b| {
+            if a % n2 == b % n2 { m[(a / n2, b / n2)] } else { Complex64::ZERO }
+        },
+    )
+}
+
+/// 1 ⊗ m: harmonics of axis 1 keep to themselves.
+fn spread_2(m: &Matrix, n1: usize) -> Matrix {
+    let n2 = m.nrows();
+    Matrix::from_fn(n1 * n2, n1 * n2, |a, b| {
+        if a / n2 == b / n2 { m[(a % n2, b % n2)] } else { Complex64::ZERO }
+    })
+}
+
+impl Factors {
+    fn tensor(self, zeta: f64) -> Tensor {
+        let Self { a, b, plain, normal_inverse } = self;
+        if zeta == 0.0 {
+            return Tensor { xx: a, xy: None, yy: b, zz_inverse: normal_inverse };
+        }
+        let (s, c) = zeta.sin_cos();
+        let scaled = |m: &Matrix, x: f64| m * Scale(Complex64::from(x));
+        let difference = &plain - &a;
+        Tensor {
+            xx: scaled(&a, c * c) + scaled(&plain, s * s),
+            xy: Some(scaled(&difference, s * c)),
+            yy: b - scaled(&difference, s * s),
+            zz_inverse: normal_inverse,
+        }
+    }
+}
+
+impl Grid {
+    fn factors(&self, kept: Truncation, of: impl Fn(&Material) -> [Complex64; 3]) -> Factors {
+        let [n1, n2] = kept.sizes();
+        let values: Vec<[Complex64; 3]> = self.materials.iter().map(&of).collect();
+        if values.iter().all(|v| *v == [Complex64::ONE; 3]) {
+            let one = Matrix::identity(n1 * n2, n1 * n2);
+            return Factors {
+                a: one.clone(),
+                b: one.clone(),
+                plain: one.clone(),
+                normal_inverse: one,
+            };
+        }
+        let axis = |k: usize| -> Vec<Complex64> { values.iter().map(|v| v[k]).collect() };
+        let inverses = |k: usize| -> Vec<Complex64> { values.iter().map(|v| v[k].inv()).collect() };
+
+        let rows = self.lines(0, 2 * kept.order2);
+        let columns = self.lines(1, 2 * kept.order1);
+        let inverted = |series: Vec<Series>, n: usize| -> Vec<Matrix> {
+            series.iter().map(|s| inverse(&s.matrix(n))).collect()
+        };
+        let along_rows = inverted(rows.series(&inverses(0), 2 * kept.order1), n1);
+        let along_columns = inverted(columns.series(&inverses(1), 2 * kept.order2), n2);
+        let a = assemble(n1, n2, &rows.where_, |look, i, i2| along_rows[look][(i, i2)]);
+        let b = exchanged(
+            &assemble(n2, n1, &columns.where_, |look, j, j2| along_columns[look][(j, j2)]),
+            n1,
+            n2,
+        );
+        let toeplitz = |k: usize| -> Matrix {
+            let series = rows.series(&axis(k), 2 * kept.order1);
+            assemble(n1, n2, &rows.where_, |look, i, i2| series[look].at(i as isize - i2 as isize))
+        };
+        let normal = toeplitz(2);
+        let plain = if axis(0) == axis(2) { normal.clone() } else { toeplitz(0) };
+        Factors { a, b, plain, normal_inverse: inverse(&normal) }
+    }
+}
+
+/// Σ over looks of `inner`(look) ⊗ Toeplitz of where the look stands; the inner index is the
+/// slow one.
+fn assemble(
+    inner: usize,
+    outer: usize,
+    where_: &[Series],
+    of: impl Fn(usize, usize, usize) -> Complex64,
+) -> Matrix {
+    let mut m = Matrix::zeros(inner * outer, inner * outer);
+    let last = outer as isize - 1;
+    let mut by_difference = vec![Complex64::ZERO; 2 * outer - 1];
+    for i in 0..inner {
+        for i2 in 0..inner {
+            by_difference.fill(Complex64::ZERO);
+            for (look, series) in where_.iter().enumerate() {
+                let value = of(look, i, i2);
+                for (k, sum) in by_difference.iter_mut().enumerate() {
+                    *sum += value * series.at(k as isize - last);
+                }
+            }
+            for j in 0..outer {
+                for j2 in 0..outer {
+                    m[(i * outer + j, i2 * outer + j2)] = by_difference[outer - 1 + j - j2];
+                }
+            }
+        }
+    }
+    m
+}
+
+/// The matrix with the slow index j made the fast one.
+fn exchanged(m: &Matrix, n1: usize, n2: usize) -> Matrix {
+    let at = |h: usize| (h % n2) * n1 + h / n2;
+    Matrix::from_fn(n1 * n2, n1 * n2, |a, b| m[(at(a), at(b))])
+}

@@ -1,0 +1,86 @@
+//! Crossed grating by rigorous coupled waves, every order a cone of light.
+//!
+//! $$ \mathbf F = \sum_{ij} \frac{\mathbf R_{ij}}{\pi\alpha^2\cos\theta_s} $$
+//!
+//! over the orders (i, j), |i| ≤ `order1` and |j| ≤ `order2`, within α (`alpha`) of the direction
+//! of scattering. The medium above is vacuum. A grating that does not vary along one of its axes
+//! needs no harmonics there, and gets none.
+//!
+//! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
+
+use std::f64::consts::TAU;
+
+use super::orders::{ConeModel, bounded, half_angle, media, order};
+use crate::{
+    Brdf,
+    cross_grating::{CrossGrating, CrossPattern, CrossProfile, Truncation},
+    models::{COMMON, Common},
+    rcw::Structure,
+    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+};
+
+const OWN: &[Param] = &[
+    Param::number("alpha", "0.01", "rad", "Half angle of the cone of every order"),
+    Param::integer("order1", "10", "Highest harmonic along axis 1"),
+    Param::integer("order2", "10", "Highest harmonic along axis 2"),
+    Param::member(
+        "grating",
+        Family::CrossGrating,
+        "CrossGrating",
+        "OneD_CrossGrating",
+        "The grating",
+    ),
+];
+
+/// How programs name, parameterize and build the model.
+pub const SPEC: Spec<dyn Brdf> = Spec {
+    class: Class {
+        name: "CrossRCW_BRDF_Model",
+        parent: "BRDF_Model",
+        summary: "Crossed grating by coupled waves, orders given a finite cone",
+        equation: "F = sum_ij R_ij/(pi alpha^2 cos(theta_s)) within alpha of order (i,j)",
+        source: "li-1997 moharam-1995",
+        params: &[COMMON, OWN],
+        laws: Laws { realizable: true, ..Laws::NONE },
+    },
+    build: |node| {
+        let common = Common::read(node)?;
+        let structure = structure(node, &common)?;
+        Ok(Box::new(ConeModel::new(common, structure, half_angle(node)?)))
+    },
+};
+
+fn structure(node: &Node, common: &Common) -> Result<Structure, ParamError> {
+    let (order1, order2) = (order(node, "order1")?, order(node, "order2")?);
+    let grating = node.member::<dyn CrossGrating>("grating")?;
+    let profile = grating.at(common.lambda).map_err(|error| error.inside("grating"))?;
+    media(common, profile.above, profile.below)?;
+    let kept = needed(&profile, Truncation { order1, order2 });
+    let size = |order: usize| order.checked_mul(2).and_then(|n| n.checked_add(1));
+    bounded("order1", size(kept.order1))?;
+    bounded(
+        "order2",
+        size(kept.order1).zip(size(kept.order2)).and_then(|(a, b)| a.checked_mul(b)),
+    )?;
+    let (k0, lattice) = (TAU / common.lambda, profile.lattice);
+    let slices = profile.slices.iter().filter(|slice| slice.thickness > 0.0);
+    let harmonics = kept.harmonics();
+    Ok(Structure {
+        layers: slices.map(|s| s.operators(kept, lattice.zeta, k0 * s.thickness)).collect(),
+        incident: 1.0,
+        behind: profile.below,
+        zeroth: harmonics.len() / 2,
+        harmonics: harmonics.iter().map(|&(i, j)| lattice.harmonic(i, j, common.lambda)).collect(),
+    })
+}
+
+/// No harmonics along an axis on which nothing depends.
+fn needed(profile: &CrossProfile, wanted: Truncation) -> Truncation {
+    let patterns = || profile.slices.iter().map(|slice| &slice.pattern);
+    let varies_1 = patterns().any(|p| !matches!(p, CrossPattern::Along2(_)));
+    let varies_2 = patterns().any(|p| !matches!(p, CrossPattern::Along1(_)));
+    Truncation {
+        order1: if varies_1 { wanted.order1 } else { 0 },
+        order2: if varies_2 { wanted.order2 } else { 0 },
+    }
+}
