@@ -302,6 +302,19 @@ mod tests {
     }
 
     #[test]
+    fn conformance_rings_around_a_point_hold_as_many_directions() {
+        // E and F of v_shape_annulus_odd: the inner or the outer ring is a point that lies in
+        // line with a column of the grid.
+        let count = |outer_alpha, inner_alpha| {
+            let (outer_center, inner_center) = ((0.0, 0.0), (0.0, 0.0));
+            let ring = Region::Annulus { outer_center, outer_alpha, inner_center, inner_alpha };
+            let sampling = Sampling { min_samples: 10.0, ..sampling(2, 0.003, Apertures::Nist) };
+            Layout::new(&ring, &sampling).unwrap().directions()
+        };
+        assert_eq!((count(0.579, 0.0), count(0.0, 0.512)), (340, 276));
+    }
+
+    #[test]
     fn apertures_of_no_size_and_impossible_steps_give_nan() {
         for apertures in [Apertures::Nist, Apertures::Exact] {
             let usual = sampling(2, 0.01, apertures);

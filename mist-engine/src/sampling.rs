@@ -7,7 +7,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use scattering::Direction;
 
@@ -266,7 +266,7 @@ impl Plan {
         let direction = seen(v);
         let is_inside = match &self.inside {
             Inside::Cone => true,
-            Inside::Polygon(polygon) => polygon.contains(v.truncate()),
+            Inside::Polygon(polygon) => polygon.contains(projected(v, &direction)),
             Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
             Inside::One(_) => false,
         };
@@ -296,6 +296,20 @@ fn seen(v: DVec3) -> Direction {
     let sin = ((1.0 - v.z) * (1.0 + v.z)).max(0.0).sqrt();
     Direction { theta, phi, sin, cos: v.z, sin_phi, cos_phi }
 }
+
+/// x and y of a direction with the unit vector `v`.
+///
+/// Next to an axis they are taken of the angles, as NIST's program does: a vertex may lie there,
+/// and then the rounding of cos π/2 decides.
+fn projected(v: DVec3, direction: &Direction) -> DVec2 {
+    if v.x.abs().min(v.y.abs()) > AXIS {
+        return v.truncate();
+    }
+    crate::region::unit((direction.theta, direction.phi)).truncate()
+}
+
+/// Closer to an axis than this, rounding decides.
+const AXIS: f64 = 1e-12;
 
 /// The test that makes a grid on the cone of `region` a grid on the region itself.
 fn exact(region: &Region, sampling: &Sampling) -> Result<Inside, RegionError> {
