@@ -117,20 +117,19 @@ fn judge(values: &[Mueller; NODES]) -> (Estimate, bool) {
 /// The error of the better rule from the disagreement of the two.
 ///
 /// The Gauss rule is of degree 5 and the Kronrod rule of degree 11, so for smooth functions the
-/// error of the latter falls with the square of the disagreement, with a factor that was at most
-/// 15 for 250 facet lobes of slopes from 0.0003 to 1. It is never less than the rounding of a sum
-/// of this size.
+/// error of the latter falls with the square of the disagreement. The power 3/2, as in QUADPACK,
+/// also covers cells with the square roots that are left where a region ends on the horizon. It
+/// is never less than the rounding of a sum of this size.
 fn sharpened(disagreement: f64, spread: f64) -> f64 {
     if spread == 0.0 {
         return disagreement;
     }
     let ratio = disagreement / spread;
-    disagreement * (SAFETY * ratio).min(1.0) + f64::EPSILON * spread
+    disagreement * (SAFETY * ratio).sqrt().min(1.0) + f64::EPSILON * spread
 }
 
-/// The factor of the square; disagreements of more than a SAFETYth of the spread are taken as
-/// they are.
-const SAFETY: f64 = 50.0;
+/// Disagreements of more than a SAFETYth of the spread are taken as they are.
+const SAFETY: f64 = 20.0;
 
 #[cfg(test)]
 mod tests {
