@@ -1,6 +1,5 @@
 //! Special functions and quadrature rules that several models need.
 
 pub mod bessel;
-pub mod gamma;
 pub mod gauss;
 pub mod riccati;

@@ -11,7 +11,6 @@ use super::{Distribution, positive};
 use crate::{
     Defect,
     spec::{Class, Laws, Param, ParamError, Spec},
-    special::gamma::ln_gamma,
 };
 
 /// How programs name, parameterize and build a [`ModifiedGamma`] distribution.
@@ -36,7 +35,7 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         }
         let (lambda, gamma) = (positive(node, "Lambda")?, positive(node, "gamma")?);
         let order = (1.0 + mu) / gamma;
-        let of_radius = gamma.ln() + order * lambda.ln() - ln_gamma(order);
+        let of_radius = gamma.ln() + order * lambda.ln() - libm::lgamma(order);
         let half = if node.reproduces(Defect::GammaNorm) { 0.0 } else { 0.5f64.ln() };
         Ok(Box::new(ModifiedGamma { mu, lambda, gamma, ln_norm: of_radius + half }))
     },
