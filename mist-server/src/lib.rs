@@ -1,1 +1,15 @@
-//! The command line and the HTTP service.
+//! The command line `mist` and the HTTP service behind `mist serve`.
+//!
+//! This is the only crate that knows terminals, sockets and the file system, and the only one
+
+//!
+
+mod cli;
+mod compute;
+mod disk;
+mod interrupt;
+mod products;
+mod progress;
+mod report;
+
+pub use cli::main;

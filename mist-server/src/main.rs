@@ -1,3 +1,5 @@
 //! The program `mist`.
 
-fn main() {}
+fn main() -> std::process::ExitCode {
+    mist_server::main()
+}

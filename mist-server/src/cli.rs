@@ -1,0 +1,72 @@
+//! The commands. Each has a file of its own: its arguments, its help, what it does.
+//!
+//! Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.
+
+mod check;
+mod color;
+mod convert;
+mod fmt;
+mod models;
+mod run;
+mod source;
+mod stop;
+
+use std::{io::Write, process::ExitCode};
+
+use clap::{Parser, Subcommand};
+
+use stop::Stop;
+
+/// From the physics of a material to its colour in a renderer.
+#[derive(Parser)]
+#[command(name = "mist", version, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  mist run paint.mist                 run a program, write its tables here
+  mist check paint.mist               look for mistakes without running
+  mist models Facet_BRDF_Model        what a model is and which parameters it has
+  mist table paint.json --grid thetai=0:10:80,thetas=0:10:80,phis=0:20:180 --lambda 400:20:700 -o paint.mtab
+  mist serve                          answer renderers on http://127.0.0.1:8650
+
+Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.";
+
+#[derive(Subcommand)]
+enum Command {
+    Run(run::Args),
+    Check(check::Args),
+    Models(models::Args),
+    Color(color::Args),
+    Fmt(fmt::Args),
+    Convert(convert::Args),
+}
+
+/// Runs the command that the arguments of the process name.
+pub fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::Models(args) => models::models(&args),
+        Command::Color(args) => color::color(&args),
+        Command::Fmt(args) => fmt::fmt(&args),
+        Command::Convert(args) => convert::convert(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(stop) => stop.exit(),
+    }
+}
+
+/// Writes `text` to standard output.
+fn print(text: &str) -> Result<(), Stop> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        // Whoever reads has read enough.
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        other => other.map_err(|error| Stop::Failed(format!("cannot write the output: {error}"))),
+    }
+}

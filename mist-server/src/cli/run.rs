@@ -1,0 +1,223 @@
+//! `mist run`: programs in, tables out.
+
+use std::{
+    fmt::Write as _,
+    path::{Path, PathBuf},
+};
+
+use mist_engine::{Control, Failure, Job, Options, Summary, compile};
+use mist_format::program::ColorKey;
+use rise_bridge::write::Style;
+use scattering::Mode;
+
+use super::{
+    print,
+    source::Source,
+    stop::{Fate, Stop},
+};
+use crate::{
+    disk::DiskFiles,
+    interrupt,
+    products::Product,
+    progress::Progress,
+    report::{self, MessageFormat},
+};
+
+mod sink;
+
+use sink::DiskSink;
+
+/// Run programs and write their tables.
+///
+/// Results, listing, samples and the files of the section COLOR are written into the working
+/// folder, or into --out, under the names the program gives them; a file appears when it is whole.
+/// Data files are looked up in the working folder, beside the program, and along SCATMECH.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist run paint.mist
+  mist run --compat --out nist old/*.mist
+  mist run --job glossy --threads 4 paint.mist")]
+pub(super) struct Args {
+    /// Programs.
+    #[arg(required = true)]
+    programs: Vec<PathBuf>,
+    /// Name of the job: files that the program does not name are called after it [default: the
+    /// program's name].
+    #[arg(long, value_name = "NAME")]
+    job: Option<String>,
+    /// Give NIST's tables, its defects included.
+    #[arg(long)]
+    compat: bool,
+    /// Threads [default: one per processor]; results do not depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Folder for the results.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    out: PathBuf,
+    /// Seed of the Monte Carlo modes.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Who reads the diagnostics.
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    message_format: MessageFormat,
+}
+
+/// Runs the programs one after the other; each uses all threads.
+pub(super) fn run(args: &Args) -> Result<(), Stop> {
+    if args.job.is_some() && args.programs.len() > 1 {
+        return Err(Stop::Refused("--job names one job, but there are several programs".into()));
+    }
+    let pool = pool(args.threads)?;
+    let cancel = interrupt::flag();
+    let runs = || -> Result<Vec<Fate>, Stop> {
+        let mut fates = Vec::new();
+        for program in &args.programs {
+            let control = Control { cancel: cancel.clone(), progress: None };
+            fates.push(run_one(args, program, control)?);
+            if cancel.load(std::sync::atomic::Ordering::Relaxed) {
+                break;
+            }
+        }
+        Ok(fates)
+    };
+    let fates = pool.install(runs)?;
+    if args.programs.len() > 1 {
+        print(&total(&fates, args.programs.len()))?;
+    }
+    fates.into_iter().max().unwrap_or(Fate::Good).done()
+}
+
+/// Threads for a run.
+pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Stop> {
+    if threads == Some(0) {
+        return Err(Stop::Refused("--threads must be 1 or more".into()));
+    }
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
+    builder.build().map_err(|error| Stop::Failed(format!("cannot start threads: {error}")))
+}
+
+/// Sound, or as NIST computes it.
+pub(super) fn mode(compat: bool) -> Mode {
+    if compat { Mode::Compat } else { Mode::Sound }
+}
+
+fn run_one(args: &Args, program: &Path, mut control: Control) -> Result<Fate, Stop> {
+    let source = match Source::read(program) {
+        Ok(source) => source,
+        Err(Stop::Refused(message)) => {
+            report::say(&format!("error: {message}"));
+            return Ok(Fate::Refused);
+        }
+        Err(stop) => return Err(stop),
+    };
+    let job = args.job.clone().unwrap_or_else(|| source.stem());
+    let options = Options { mode: mode(args.compat), job, seed: args.seed, ..Options::default() };
+    let tell = |diagnostics: &[_]| {
+        report::tell(diagnostics, &source.name(), &source.text, args.message_format);
+    };
+    let job = match compile(&source.text, DiskFiles::beside(program).shared(), &options) {
+        Ok(job) => job,
+        Err(diagnostics) => {
+            tell(&diagnostics);
+            return Ok(Fate::Refused);
+        }
+    };
+    let progress = Progress::new(&options.job);
+    let bar = progress.clone();
+    control.progress = Some(Box::new(move |part| bar.set(part)));
+    let done = run_job(&job, &args.out, &control);
+    progress.finish();
+    match done {
+        Ok((summary, files)) => {
+            note_defects(&source.name(), &summary);
+            print(&describe(&options.job, &summary, &files))?;
+            Ok(Fate::Good)
+        }
+        Err(RunError::Engine(Failure::Program(diagnostics))) => {
+            tell(&diagnostics);
+            Ok(Fate::Refused)
+        }
+        Err(RunError::Engine(Failure::Step { step, fault })) => {
+            tell(&[fault.note(format!("in step {}", step + 1))]);
+            Ok(Fate::Failed)
+        }
+        Err(error) => {
+            report::say(&format!("error: {}: {error}", source.name()));
+            Ok(Fate::Failed)
+        }
+    }
+}
+
+/// Why a compiled job has no results.
+#[derive(Debug, thiserror::Error)]
+enum RunError {
+    #[error("{0}")]
+    Engine(#[from] Failure),
+    #[error("{0}")]
+    Write(String),
+}
+
+/// A file that was written, and what it is.
+type Written = (&'static str, PathBuf);
+
+/// Runs `job` and writes its files below `out`.
+fn run_job(job: &Job, out: &Path, control: &Control) -> Result<(Summary, Vec<Written>), RunError> {
+    let mut sink = DiskSink::create(job, out).map_err(RunError::Write)?;
+    let summary = job.run(&mut sink, control)?;
+    let mut files = sink.finish().map_err(RunError::Write)?;
+    if let (Some(section), Some(table)) = (job.colour(), &summary.colour) {
+        let wanted = [
+            (ColorKey::Table, Product::Table),
+            (ColorKey::Spectra, Product::Spectra),
+            (ColorKey::Json, Product::Json),
+            (ColorKey::Plot, Product::Picture),
+        ];
+        for (key, product) in wanted {
+            if let Some(name) = section.file(key) {
+                let saved = product.save(table, &out.join(name), Style::default());
+                let saved = saved.map_err(|error| RunError::Write(error.to_string()))?;
+                files.extend(saved.into_iter().map(|path| (product.title(), path)));
+            }
+        }
+    }
+    Ok((summary, files))
+}
+
+/// What a finished run says.
+fn describe(job: &str, summary: &Summary, files: &[Written]) -> String {
+    let mut text = format!(
+        "{job}: {} step{}, {:.3e} evaluations, {:.2} s\n",
+        summary.steps,
+        if summary.steps == 1 { "" } else { "s" },
+        summary.evaluations,
+        summary.seconds,
+    );
+    for (what, path) in files {
+        let path = path.strip_prefix(".").unwrap_or(path);
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {what:<14} {}", path.display());
+    }
+    text
+}
+
+fn note_defects(file: &str, summary: &Summary) {
+    for defect in &summary.met {
+        report::say(&format!(
+            "note: {file}: this run meets a defect of NIST's library and has the sound value \
+             (--compat reproduces NIST's) [{defect}]"
+        ));
+    }
+}
+
+/// One line for many programs.
+fn total(fates: &[Fate], programs: usize) -> String {
+    let count = |fate| fates.iter().filter(|each| **each == fate).count();
+    format!(
+        "{programs} programs: {} good, {} failed, {} refused, {} not started\n",
+        count(Fate::Good),
+        count(Fate::Failed),
+        count(Fate::Refused),
+        programs - fates.len(),
+    )
+}

@@ -1,0 +1,112 @@
+//! A file that appears under its name when it is whole, and leaves no trace before.
+
+use std::{
+    fs,
+    io::{self, BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+use tempfile::NamedTempFile;
+
+/// A file that is being written under a temporary name beside its own.
+#[derive(Debug)]
+pub(crate) struct WholeFile {
+    path: PathBuf,
+    file: BufWriter<NamedTempFile>,
+}
+
+impl WholeFile {
+    /// Begins the file `path`; folders above it are made.
+    ///
+    /// # Errors
+    ///
+    /// If nothing can be written there.
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
+        if path.is_dir() {
+            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+        }
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        fs::create_dir_all(folder)?;
+        let file = tempfile::Builder::new()
+            .prefix(".mist-")
+            .suffix(".tmp")
+            .permissions(permissions())
+            .tempfile_in(folder)?;
+        Ok(Self { path: path.to_owned(), file: BufWriter::new(file) })
+    }
+
+    /// Writes the whole of `text` to the file `path`.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be written; an older file of this name is then left as it was.
+    pub(crate) fn write(path: &Path, text: &str) -> io::Result<()> {
+        let mut file = Self::create(path)?;
+        file.write_all(text.as_bytes())?;
+        file.finish()
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    ///
+    /// If the rest cannot be written or the name cannot be taken.
+    pub(crate) fn finish(self) -> io::Result<()> {
+        let file = self.file.into_inner().map_err(io::IntoInnerError::into_error)?;
+        file.persist(&self.path).map_err(|error| error.error)?;
+        Ok(())
+    }
+
+    /// The name it will have.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// What a new file gets before the process's mask: temporary files would be private.
+fn permissions() -> fs::Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    fs::Permissions::from_mode(0o666)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_has_its_name_only_when_it_is_finished() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("new/a.dat");
+        let mut file = WholeFile::create(&path).unwrap();
+        file.write_all(b"text").unwrap();
+        assert!(!path.exists());
+        file.finish().unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "text");
+    }
+
+    #[test]
+    fn a_file_that_is_dropped_leaves_nothing() {
+        let dir = tempfile::tempdir().unwrap();
+        drop(WholeFile::create(&dir.path().join("a.dat")).unwrap());
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_folder_cannot_be_a_file() {
+        let dir = tempfile::tempdir().unwrap();
+        assert!(WholeFile::create(dir.path()).is_err());
+    }
+}

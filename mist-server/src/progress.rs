@@ -1,0 +1,41 @@
+//! Progress on a terminal; silence elsewhere.
+
+use std::{io::IsTerminal, time::Duration};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Steps of a bar: finer than any terminal shows.
+const STEPS: u64 = 10_000;
+
+/// The progress of one run.
+#[derive(Clone, Debug)]
+pub(crate) struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    /// A bar with `label` before it, drawn on standard error if that is a terminal.
+    pub(crate) fn new(label: &str) -> Self {
+        let target = match std::io::stderr().is_terminal() {
+            true => ProgressDrawTarget::stderr_with_hz(5),
+            false => ProgressDrawTarget::hidden(),
+        };
+        let bar = ProgressBar::with_draw_target(Some(STEPS), target);
+        let style = ProgressStyle::with_template("{prefix} {wide_bar} {percent:>3}% {eta:>4}");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
+        bar.set_prefix(label.to_owned());
+        bar.enable_steady_tick(Duration::from_millis(500));
+        Self { bar }
+    }
+
+    /// Shows the part done, from 0 to 1.
+    pub(crate) fn set(&self, part: f64) {
+        // In range by the clamp.
+        self.bar.set_position((part.clamp(0.0, 1.0) * STEPS as f64) as u64);
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
