@@ -56,6 +56,8 @@ pub enum Defect {
     GaussianPhaseSeries,
     /// Slope distributions use constants of twelve digits.
     SlopeConstants,
+    /// `Focussed_Beam` mirrors the azimuth of every ray.
+    FocussedMirror,
     /// The cleanliness distribution uses constants of six digits.
     CleanlinessDigits,
     /// Mie's recurrence starts too low for large spheres.
@@ -101,6 +103,9 @@ impl Defect {
             Self::AxisymmetricIndex => ("B20", "harmonics above mmax are paired wrongly"),
             Self::GaussianPhaseSeries => {
                 ("-", "the Gaussian phase function is normalized by a series for small widths")
+            }
+            Self::FocussedMirror => {
+                ("-", "a converging beam sees the model mirrored in the plane of incidence")
             }
             Self::SlopeConstants => ("-", "constants of slope distributions have twelve digits"),
             Self::CleanlinessDigits => {

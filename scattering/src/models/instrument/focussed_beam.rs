@@ -8,6 +8,10 @@
 //! tilted by `focal_point` times its own tilt: 0 for a beam focussed on the sample, 1 for one
 //! focussed on the detector. Rays and views below the horizon count as dark.
 //!
+//! NIST's library mirrors the azimuth of every ray before it asks the model, so that the elements
+//! that mix I and Q with U and V have the opposite sign of those of a parallel beam
+//! ([`Defect::FocussedMirror`]).
+//!
 //! T. A. Germer and C. C. Asmail, *Goniometric optical scatter instrument for out-of-plane
 //! ellipsometry measurements*, Rev. Sci. Instrum. 70, 3688 (1999).
 
@@ -18,7 +22,7 @@ use super::{
     finite_aperture::INNER,
 };
 use crate::{
-    Basis, Direction, Incidence, Model, Mueller, ParamError,
+    Basis, Defect, Direction, Incidence, Model, Mueller, ParamError,
     models::{self, Brdf, COMMON, Common},
     spec::{Class, Laws, Param, Spec},
 };
@@ -41,7 +45,9 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         if !focal_point.is_finite() {
             return Err(ParamError::new("focal_point", format!("{focal_point} is not finite")));
         }
-        Ok(Box::new(FocussedBeam { common, model, points: disk::points(node)?, focal_point }))
+        let points = disk::points(node)?;
+        let mirrored = points.len() > 1 && node.reproduces(Defect::FocussedMirror);
+        Ok(Box::new(FocussedBeam { common, model, points, focal_point, mirrored }))
     },
 };
 
@@ -58,6 +64,7 @@ pub struct FocussedBeam {
     model: Model,
     points: Vec<Point>,
     focal_point: f64,
+    mirrored: bool,
 }
 
 /// One ray of the beam.
@@ -78,11 +85,15 @@ impl FocussedBeam {
 
     fn add(&self, ray: &Ray<'_>, viewer: &Beam, cosines: f64, out: &mut Mueller) {
         let (theta, phi) = disk::angles(ray.point.tilt(viewer, self.focal_point));
-        let direction = Direction::new(theta, phi - ray.azimuth);
+        let azimuth = phi - ray.azimuth;
+        let azimuth = if self.mirrored { -azimuth } else { azimuth };
+        let direction = Direction::new(theta, azimuth);
         let mut m = [Mueller::ZERO];
         self.model.evaluate(&ray.incidence, &[direction], Basis::Psps, &mut m);
         let side = self.common.side;
-        let outwards = if side.to_below() { phi } else { -phi };
+        // From psps to xyxy of the ray's own plane of incidence, then to that of the laboratory.
+        let outwards = azimuth + ray.azimuth;
+        let outwards = if side.to_below() { outwards } else { -outwards };
         let inwards = if side.from_below() { -ray.azimuth } else { ray.azimuth };
         let turned = disk::turn_input(disk::turn_output(m[0], outwards), inwards);
         *out += turned * (ray.point.weight * ray.incidence.cos * direction.cos / cosines);
@@ -119,7 +130,7 @@ impl Brdf for FocussedBeam {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, Node, models, spec::Value};
+    use crate::{Basis, Geometry, Mode, Mueller, Node, models, spec::Value};
 
     #[test]
     fn a_parallel_beam_gives_the_model_in_every_basis() {
@@ -131,6 +142,20 @@ mod tests {
             let (a, b) = (beam.mueller(&at, basis), inner.mueller(&at, basis));
             assert!((a - b).largest() < 1e-13 * b.largest(), "{basis:?}");
         }
+    }
+
+    #[test]
+    fn compat_mirrors_the_model_and_sound_does_not() {
+        let build = |mode| {
+            let node = Node::with_defaults(&super::SPEC.class, mode);
+            models::build(&node.with("alpha", Value::Number(1e-6)).unwrap()).unwrap()
+        };
+        let at = Geometry { theta_i: 0.7, theta_s: 0.5, phi_s: 2.0, rotation: 0.0 };
+        let (sound, compat) = (build(Mode::Sound), build(Mode::Compat));
+        let (a, b) = (sound.mueller(&at, Basis::Xyxy), compat.mueller(&at, Basis::Xyxy));
+        let q = Mueller::diagonal([1.0, 1.0, -1.0, -1.0]);
+        assert!((q * a * q - b).largest() < 1e-6 * a.largest());
+        assert!((a - b).largest() > 0.1 * a.largest());
     }
 
     #[test]
