@@ -69,6 +69,7 @@ impl Compiler<'_> {
             return Err(self.faults);
         }
         let in_order = feeds_back(&entries, &required, &loops, &integrals, &results);
+        let chained = is_chained(&integrals, &results);
         let reads = self.reads(&outputs, &loops, colour.as_ref());
         Ok(Job {
             basis: basis(&program),
@@ -87,6 +88,7 @@ impl Compiler<'_> {
             colour,
             reads,
             in_order,
+            chained,
         })
     }
 
@@ -103,7 +105,9 @@ impl Compiler<'_> {
         let other = spec::find_class(name).map(|class| format!("{name} is a {}", class.parent));
         let message = match other {
             Some(what) => format!("{what}, not a BRDF model"),
-            None if name == "BRDF_Model" || spec::ABSTRACT.iter().any(|(this, _)| *this == name) => {
+            None if name == "BRDF_Model"
+                || spec::ABSTRACT.iter().any(|(this, _)| *this == name) =>
+            {
                 format!("{name} is a family of models, not one of them")
             }
             None => format!("there is no BRDF model called {name:?}"),
@@ -205,7 +209,9 @@ impl Compiler<'_> {
     ) -> Option<LoopPlan> {
         match each {
             Loop::For(statement) => self.for_plan(statement, entries, results).map(LoopPlan::For),
-            Loop::List(statement) => self.list_plan(statement, entries, results).map(LoopPlan::List),
+            Loop::List(statement) => {
+                self.list_plan(statement, entries, results).map(LoopPlan::List)
+            }
         }
     }
 
@@ -282,7 +288,8 @@ impl Compiler<'_> {
                 let cell = file.cell(row, at);
                 whole_number(cell).is_none()
                     && Expr::compile(cell, dialect(self.options.mode)).is_ok_and(|expr| {
-                        let mut slots = expr.names().iter().filter_map(|name| self.names.find(name));
+                        let mut slots =
+                            expr.names().iter().filter_map(|name| self.names.find(name));
                         slots.any(|slot| results.contains(&slot))
                     })
             })
@@ -477,6 +484,12 @@ impl Key {
     }
 }
 
+/// Whether an aperture reads an integral or an output.
+fn is_chained(integrals: &[IntegralPlan], results: &BTreeSet<u32>) -> bool {
+    let settings = integrals.iter().flat_map(|integral| &integral.settings);
+    settings.flat_map(|setting| setting.expr.slots()).any(|slot| results.contains(slot))
+}
+
 /// Whether variables, loop bounds or apertures read integrals or outputs.
 fn feeds_back(
     entries: &[Entry],
@@ -496,5 +509,5 @@ fn feeds_back(
             .iter()
             .any(|slot| results.contains(slot))
         || in_loops
-        || integrals.iter().flat_map(|integral| &integral.settings).any(|s| reads(&s.expr))
+        || is_chained(integrals, results)
 }

@@ -43,7 +43,10 @@ pub struct MemoryFiles(pub BTreeMap<String, Arc<str>>);
 impl Files for MemoryFiles {
     fn read(&self, name: &str) -> Result<Arc<str>, FileError> {
         let found = self.0.get(name).cloned();
-        found.ok_or_else(|| FileError { name: name.into(), reason: "not sent with the program".into() })
+        found.ok_or_else(|| FileError {
+            name: name.into(),
+            reason: "not sent with the program".into(),
+        })
     }
 
     fn names(&self) -> Vec<String> {
@@ -85,7 +88,9 @@ impl Library {
         let mut texts = self.shelf.texts.lock().expect("reading does not panic");
         let read = || {
             self.shelf.files.read(name).map_err(|mut error| {
-                if let Some(other) = did_you_mean(name, self.shelf.files.names().iter().map(String::as_str)) {
+                if let Some(other) =
+                    did_you_mean(name, self.shelf.files.names().iter().map(String::as_str))
+                {
                     error.reason = format!("{}; {other}", error.reason);
                 }
                 error

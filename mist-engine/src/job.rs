@@ -10,7 +10,11 @@ use scattering::{Basis, Class, Mode, ParamError};
 
 use crate::{
     Library, Limits,
-    fault::{Fault, fault}, colour::section::ColourSection, scope::Names, sweep::LoopPlan};
+    colour::section::ColourSection,
+    fault::{Fault, fault},
+    scope::Names,
+    sweep::LoopPlan,
+};
 
 /// How a program is compiled and run.
 #[derive(Clone, Debug)]
@@ -53,6 +57,8 @@ pub struct Job {
     pub(crate) reads: Vec<u32>,
     /// Whether variables, loops or apertures read integrals or outputs of earlier steps.
     pub(crate) in_order: bool,
+    /// Whether an aperture reads an integral or output, so that integrals are computed one by one.
+    pub(crate) chained: bool,
 }
 
 /// One entry of VARIABLES.
@@ -165,9 +171,8 @@ impl Job {
             .iter()
             .filter(|entry| entry.parameter.as_deref().is_some_and(sets))
             .max_by_key(|entry| entry.parameter.as_ref().map_or(0, String::len));
-        let place = set_by.map_or(&self.program.model, |entry| {
-            &self.program.variables[entry.variable].value
-        });
+        let place = set_by
+            .map_or(&self.program.model, |entry| &self.program.variables[entry.variable].value);
         fault("model/parameter", place, error.to_string())
     }
 

@@ -7,11 +7,8 @@ pub(crate) const SAMPLES_HEAD: &str = "order\tthetas\tphis\tx\ty\tz\tBRDF\n";
 
 /// Our name and the seed of the random numbers, then what NIST's program writes.
 pub(crate) fn head(job: &Job) -> String {
-    let mut text = format!(
-        "mist {}\r\nRandom seed: {}\r\n\n",
-        env!("CARGO_PKG_VERSION"),
-        job.options.seed
-    );
+    let mut text =
+        format!("mist {}\r\nRandom seed: {}\r\n\n", env!("CARGO_PKG_VERSION"), job.options.seed);
     let mut line = |key: &str, value: &str| text.push_str(&format!("{key}: {value}\n"));
     line("Integrating model", job.class.name);
     line("Listing file", &job.listing_name());

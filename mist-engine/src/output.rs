@@ -94,10 +94,8 @@ impl<'j> Outputs<'j> {
     /// The line of `step`, whose integrals came out as `integrals`.
     pub(crate) fn line(&mut self, step: &Step, integrals: &[f64]) -> Result<String, Fault> {
         let job = self.job;
-        let predefined = [
-            (job.required.pi, 4.0 * 1f64.atan()),
-            (job.required.deg, 4.0 * 1f64.atan() / 180.0),
-        ];
+        let predefined =
+            [(job.required.pi, 4.0 * 1f64.atan()), (job.required.deg, 4.0 * 1f64.atan() / 180.0)];
         for (slot, value) in predefined {
             self.scope.set(slot, value.into());
         }

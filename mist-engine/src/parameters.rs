@@ -37,6 +37,8 @@ pub(crate) struct Context<'a> {
     pub(crate) mode: Mode,
     /// The wavelength for which the objects around were evaluated last, if any.
     pub(crate) evaluated_at: Option<f64>,
+    /// Whether the parameter belongs to an object inside of the model.
+    pub(crate) is_nested: bool,
 }
 
 impl Parameters {
@@ -69,7 +71,7 @@ impl Parameters {
         mode: Mode,
         previous: Option<&Self>,
     ) -> Result<(), SetError> {
-        let mut context = Context { library, mode, evaluated_at: None };
+        let mut context = Context { library, mode, evaluated_at: None, is_nested: false };
         let before = previous.map(|parameters| &*parameters.root);
         Arc::make_mut(&mut self.root)
             .set(path, text, &mut context, before)

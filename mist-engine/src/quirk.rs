@@ -18,6 +18,8 @@ pub enum Quirk {
     FixedIncidentPolarization,
     /// Numbers for the model are read up to the first character that does not fit: `0.5um`.
     NumericPrefix,
+    /// `default` for a number of a nested object is read as a number: 0.
+    NestedDefault,
     /// A changed interpolation or formula parameter of an index acts only at another wavelength.
     StaleInterpolation,
     /// Apertures are polygons, cut and shifted at the horizon, with rim points in mode 3.
@@ -31,6 +33,7 @@ impl Quirk {
         Self::NoResend,
         Self::FixedIncidentPolarization,
         Self::NumericPrefix,
+        Self::NestedDefault,
         Self::StaleInterpolation,
         Self::PolygonApertures,
     ];

@@ -42,6 +42,7 @@ pub struct Replay<'j> {
     /// The parameters of the step before: NIST's library remembers optical constants by them.
     previous: Option<Parameters>,
     index: u64,
+    ended: bool,
 }
 
 impl<'j> Replay<'j> {
@@ -62,6 +63,7 @@ impl<'j> Replay<'j> {
             parameters: Parameters::new(job.class),
             previous: None,
             index: 0,
+            ended: false,
         }
     }
 
@@ -71,7 +73,8 @@ impl<'j> Replay<'j> {
     ///
     /// The first thing that is wrong with the program in this step, and where.
     pub fn next_step(&mut self) -> Result<Option<Step>, Fault> {
-        if !self.move_loops()? {
+        if self.ended || !self.move_loops()? {
+            self.ended = true;
             return Ok(None);
         }
         let mut listing = String::new();
@@ -181,13 +184,14 @@ impl<'j> Replay<'j> {
         let name = entry.parameter.as_deref().expect("only parameters are sent");
         listing.push_str(&format!("Setting parameter {name} to {text}\n"));
         let mode = self.job.options.mode;
-        self.parameters
-            .set(name, &text, &self.job.library, mode, self.previous.as_ref())
-            .map_err(|error| {
+        self.parameters.set(name, &text, &self.job.library, mode, self.previous.as_ref()).map_err(
+            |error| {
                 let variable = &self.job.program.variables[entry.variable];
-                let place = if error.is_about_the_name() { &variable.name } else { &variable.value };
+                let place =
+                    if error.is_about_the_name() { &variable.name } else { &variable.value };
                 Box::new(error.diagnostic(place.span()))
-            })?;
+            },
+        )?;
         if !Quirk::NoResend.applies_in(mode) {
             self.forget_below(at, name);
         }
@@ -228,8 +232,10 @@ impl<'j> Replay<'j> {
             seed: job.options.seed,
         };
         let mut integrals = Vec::with_capacity(job.integrals.len());
-        for plan in &job.integrals {
-            integrals.push(self.integral(plan, sampling.clone(), incident)?);
+        if !job.chained {
+            for plan in &job.integrals {
+                integrals.push(self.integral(plan, sampling.clone(), incident)?);
+            }
         }
         let sweep = self.sweep.as_ref();
         Ok(Step {
@@ -238,12 +244,23 @@ impl<'j> Replay<'j> {
             theta_i,
             rotation,
             integrals,
+            sampling,
+            incident,
             columns: sweep.map(Sweep::cells).unwrap_or_default(),
             values: job.reads.iter().map(|slot| self.scope.get(*slot).cloned()).collect(),
             listing,
             fraction: sweep.map_or(0.0, Sweep::fraction),
             counts: sweep.map(|s| s.counts().to_vec()).unwrap_or_default(),
         })
+    }
+
+    /// Adds the next integral of a chained program to `step`, with what the integrals before it
+    /// have given.
+    pub(crate) fn add_integral(&mut self, step: &mut Step) -> Result<(), Fault> {
+        let plan = &self.job.integrals[step.integrals.len()];
+        let integral = self.integral(plan, step.sampling.clone(), step.incident)?;
+        step.integrals.push(integral);
+        Ok(())
     }
 
     fn required(&self, slot: u32) -> Result<f64, Fault> {
@@ -322,10 +339,9 @@ impl Aperture {
                 inner_center: self.inner_center,
                 inner_alpha: self.inner_alpha,
             },
-            Shape::Polygon => Region::Polygon {
-                vertices: self.vertices,
-                polarization_center: self.pol_center,
-            },
+            Shape::Polygon => {
+                Region::Polygon { vertices: self.vertices, polarization_center: self.pol_center }
+            }
         };
         let pol = self.pol.unwrap_or(Stokes::UNPOLARIZED);
         Integral { region, sampling, pol, inpol: self.inpol }
@@ -335,9 +351,11 @@ impl Aperture {
 fn direction(value: &Value, text: &Text) -> Result<(f64, f64), Fault> {
     match value.as_slice() {
         [theta, phi, ..] => Ok((*theta, *phi)),
-        _ => Err(Box::new(
-            *fault("integral/direction", text, "a direction has two elements, (theta,phi)"),
-        )),
+        _ => Err(Box::new(*fault(
+            "integral/direction",
+            text,
+            "a direction has two elements, (theta,phi)",
+        ))),
     }
 }
 

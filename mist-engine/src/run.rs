@@ -138,14 +138,16 @@ impl<'a> Runner<'a> {
         Ok(cost)
     }
 
-    fn evaluate(&mut self, block: Vec<Step>, replay: &mut Replay<'_>) -> Result<(), Failure> {
-        let values = self.shared.evaluate(&block, &mut self.meter)?;
+    fn evaluate(&mut self, mut block: Vec<Step>, replay: &mut Replay<'_>) -> Result<(), Failure> {
+        let values = if self.job.chained {
+            self.evaluate_chain(&mut block, replay)?
+        } else {
+            self.shared.evaluate(&block, &mut self.meter)?
+        };
         for (step, values) in block.iter().zip(values) {
             self.sink.write(Stream::Listing, &step.listing)?;
-            let line = self
-                .outputs
-                .line(step, &values)
-                .map_err(|fault| at_step(step.index, fault))?;
+            let line =
+                self.outputs.line(step, &values).map_err(|fault| at_step(step.index, fault))?;
             self.sink.write(Stream::Results, &line)?;
             if let Some(fold) = &mut self.fold {
                 fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
@@ -160,6 +162,30 @@ impl<'a> Runner<'a> {
         }
         self.summary.met.extend(self.shared.take_met());
         Ok(())
+    }
+}
+
+impl Runner<'_> {
+    /// Integrals whose apertures read integrals before them, one after the other.
+    fn evaluate_chain(
+        &mut self,
+        block: &mut [Step],
+        replay: &mut Replay<'_>,
+    ) -> Result<Vec<Vec<f64>>, Failure> {
+        let mut all = Vec::with_capacity(block.len());
+        for step in block {
+            let mut values = Vec::new();
+            for plan in &self.job.integrals {
+                replay.add_integral(step).map_err(|fault| at_step(step.index, fault))?;
+                self.price(step)?;
+                let only = std::slice::from_ref(&*step);
+                values = self.shared.evaluate(only, &mut self.meter)?.remove(0);
+                let last = values.last().copied().unwrap_or(f64::NAN);
+                replay.scope.set(plan.slot, last.into());
+            }
+            all.push(values);
+        }
+        Ok(all)
     }
 }
 

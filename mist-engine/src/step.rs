@@ -17,6 +17,10 @@ pub struct Step {
     pub rotation: f64,
     /// One per integral, in the order of the program.
     pub integrals: Vec<Integral>,
+    /// How its integrals are sampled.
+    pub(crate) sampling: Sampling,
+    /// The incident light of integrals without INPOL.
+    pub(crate) incident: Stokes,
     /// What the columns of the loops show.
     pub(crate) columns: Vec<Cell>,
     /// Values of the variables that outputs read, parallel to the job's `reads`.

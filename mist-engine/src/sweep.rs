@@ -75,16 +75,16 @@ pub(crate) struct Sweep<'j> {
 impl<'j> Sweep<'j> {
     /// Every loop at its first value.
     pub(crate) fn start(plans: &'j [LoopPlan], context: &mut Context<'_>) -> Result<Self, Fault> {
-        let mut sweep = Self {
-            plans,
-            states: Vec::new(),
-            written: Vec::new(),
-            counts: vec![0; plans.len()],
-        };
+        let mut sweep =
+            Self { plans, states: Vec::new(), written: Vec::new(), counts: vec![0; plans.len()] };
         for plan in plans {
             let state = match plan {
-                LoopPlan::For(plan) => LoopState::For(ForState::start(plan, context, &mut sweep.written)?),
-                LoopPlan::List(plan) => LoopState::List(ListState::start(plan, context, &mut sweep.written)?),
+                LoopPlan::For(plan) => {
+                    LoopState::For(ForState::start(plan, context, &mut sweep.written)?)
+                }
+                LoopPlan::List(plan) => {
+                    LoopState::List(ListState::start(plan, context, &mut sweep.written)?)
+                }
             };
             sweep.states.push(state);
         }
@@ -96,7 +96,9 @@ impl<'j> Sweep<'j> {
         for at in (0..self.plans.len()).rev() {
             let written = &mut self.written;
             let inside = match (&self.plans[at], &mut self.states[at]) {
-                (LoopPlan::For(plan), LoopState::For(state)) => state.advance(plan, context, written)?,
+                (LoopPlan::For(plan), LoopState::For(state)) => {
+                    state.advance(plan, context, written)?
+                }
                 (LoopPlan::List(plan), LoopState::List(state)) => {
                     state.advance(plan, context, written)?
                 }

@@ -102,7 +102,9 @@ impl<'a> Fold<'a> {
         for (number, row) in self.rows.into_iter().enumerate() {
             if sorted(&row.samples) != wavelengths {
                 let number = number + 1;
-                return Err(wrong(format!("row {number} has other wavelengths than the first row")));
+                return Err(wrong(format!(
+                    "row {number} has other wavelengths than the first row"
+                )));
             }
             rows.push(colour(row, section.spectrum.len(), &plan));
         }

@@ -224,11 +224,8 @@ impl Reader<'_> {
             }
         }
         let quantity = quantity?;
-        let outside = if quantity == Quantity::Radiance {
-            Extrapolation::Zero
-        } else {
-            Extrapolation::Hold
-        };
+        let outside =
+            if quantity == Quantity::Radiance { Extrapolation::Zero } else { Extrapolation::Hold };
         Some(ColourSettings {
             quantity,
             illuminant: illuminant?,

@@ -68,9 +68,8 @@ pub(crate) fn columns(
     let expr = expr.clone();
     Ok(Arc::new(move |x| {
         let mut scope = Variable { x: [x], library: scope.library.clone() };
-        expr.eval(&mut scope, &mut Stack::default()).map_or(f64::NAN, |value| {
-            value.as_slice().get(element).copied().unwrap_or(0.0)
-        })
+        expr.eval(&mut scope, &mut Stack::default())
+            .map_or(f64::NAN, |value| value.as_slice().get(element).copied().unwrap_or(0.0))
     }))
 }
 

@@ -81,7 +81,7 @@ impl IndexState {
         };
         match (part, rest) {
             (Some(part), None) => {
-                *part = TableState::read(text, 2, context)?;
+                part.replace(text, context)?;
                 self.held = None;
                 Ok(())
             }
@@ -118,10 +118,9 @@ impl IndexState {
         let (n, k) = (self.n.value(), self.k.value());
         match self.held {
             None => Index { n, k },
-            Some(held) => Index {
-                n: still(n, held.lambda, held.n),
-                k: still(k, held.lambda, held.k),
-            },
+            Some(held) => {
+                Index { n: still(n, held.lambda, held.n), k: still(k, held.lambda, held.k) }
+            }
         }
     }
 }

@@ -29,7 +29,10 @@ pub(crate) enum Slot {
     /// Text for the class itself.
     Text(Arc<str>),
     /// The name of a file and its text.
-    File { name: Arc<str>, text: Arc<str> },
+    File {
+        name: Arc<str>,
+        text: Arc<str>,
+    },
     /// A function of x.
     Formula(Arc<Formula>),
     Index(Arc<IndexState>),
@@ -61,9 +64,9 @@ impl Slot {
         let default = param.default;
         match param.kind {
             Kind::Number => Self::Number(whole_number(default).unwrap_or(f64::NAN)),
-            Kind::Integer => {
-                Self::Integer(integer_prefix(default).value.and_then(|v| v.try_into().ok()).unwrap_or(0))
-            }
+            Kind::Integer => Self::Integer(
+                integer_prefix(default).value.and_then(|v| v.try_into().ok()).unwrap_or(0),
+            ),
             Kind::Text => Self::Text(default.into()),
             Kind::File => Self::File { name: default.into(), text: "".into() },
             Kind::Formula => Self::Formula(Arc::new(Formula::constant(default))),
@@ -84,21 +87,25 @@ impl Slot {
         text: &str,
         context: &Context<'_>,
     ) -> Result<(), SetError> {
-        if text == "default" {
+        if text == "default" && !self.ignores_default(context) {
             *self = Self::default_of(param);
             return Ok(());
+        }
+        if let Self::Table(table) = self {
+            return Arc::make_mut(table).replace(text, context);
         }
         *self = match param.kind {
             Kind::Number => Self::Number(number(text, context.mode)?),
             Kind::Integer => Self::Integer(integer(text, context.mode)?),
             Kind::Text => Self::Text(text.into()),
             Kind::File => {
-                let file = context.library.text(text).map_err(|e| SetError::value(e.to_string()))?;
+                let file =
+                    context.library.text(text).map_err(|e| SetError::value(e.to_string()))?;
                 Self::File { name: text.into(), text: file }
             }
             Kind::Formula => Self::Formula(Arc::new(Formula::read(text, context.library)?)),
             Kind::Index => Self::Index(Arc::new(IndexState::read(text, context)?)),
-            Kind::Table => Self::Table(Arc::new(TableState::read(text, 2, context)?)),
+            Kind::Table => unreachable!("a table is replaced in place"),
             Kind::Films => Self::Films(Arc::new(FilmsState::read(text, context)?)),
             Kind::Member(family, base) => {
                 let class = member(text, family, base)?;
@@ -106,6 +113,13 @@ impl Slot {
             }
         };
         Ok(())
+    }
+
+    /// Whether NIST's library reads `default` as a number, that is as 0: numbers of nested
+    /// objects.
+    fn ignores_default(&self, context: &Context<'_>) -> bool {
+        let is_number = matches!(self, Self::Number(_) | Self::Integer(_));
+        is_number && context.is_nested && Quirk::NestedDefault.applies_in(context.mode)
     }
 
     /// Sets a parameter below this one; `before` is this one as it was last evaluated.
@@ -123,6 +137,7 @@ impl Slot {
                     Some(Self::Member(object)) => Some(&**object),
                     _ => None,
                 };
+                context.is_nested = true;
                 Arc::make_mut(object).set(rest, text, context, before)
             }
             Self::Index(index) => Arc::make_mut(index).set(rest, text, context),
@@ -188,11 +203,7 @@ fn integer(text: &str, mode: Mode) -> Result<i32, SetError> {
 }
 
 /// The class called `name`, at or below `base`.
-fn member(
-    name: &str,
-    family: Family,
-    base: &str,
-) -> Result<&'static scattering::Class, SetError> {
+fn member(name: &str, family: Family, base: &str) -> Result<&'static scattering::Class, SetError> {
     let choices: Vec<&str> = family
         .classes()
         .iter()

@@ -70,9 +70,8 @@ impl Source {
 
     fn file(name: &str, library: &Library) -> Result<Self, SetError> {
         let text = library.text(name).map_err(|error| SetError::value(error.to_string()))?;
-        let wrong = |error: mist_format::table::TableError| {
-            SetError::value(format!("{name}: {error}"))
-        };
+        let wrong =
+            |error: mist_format::table::TableError| SetError::value(format!("{name}: {error}"));
         if FormulaFile::is_formula(&text) {
             let formula = FormulaFile::parse(&text).map_err(wrong)?;
             return Ok(Self::Parametric { file: name.into(), formula: Arc::new(formula) });
@@ -114,9 +113,8 @@ impl Source {
                 let formula = formula.clone();
                 Ok(Table::Formula(Arc::new(move |x| {
                     let columns = formula.columns_at(x, &value).ok().flatten();
-                    columns.map_or(f64::NAN, |all| {
-                        all.as_slice().get(element).copied().unwrap_or(0.0)
-                    })
+                    columns
+                        .map_or(f64::NAN, |all| all.as_slice().get(element).copied().unwrap_or(0.0))
                 })))
             }
         }

@@ -54,12 +54,6 @@ impl TableState {
         }
     }
 
-    /// Reads the text of a table whose values stand in `column` unless it says otherwise.
-    pub(crate) fn read(text: &str, column: usize, context: &Context<'_>) -> Result<Self, SetError> {
-        let (source, asked) = Source::of_table(text, context)?;
-        Self::new(text, source, asked.unwrap_or(column), context)
-    }
-
     pub(crate) fn new(
         text: &str,
         source: Source,
@@ -69,6 +63,17 @@ impl TableState {
         let reading = Reading::default();
         let table = source.table(column, &reading, context.library)?;
         Ok(Self { text: text.into(), source, column, reading, table })
+    }
+
+    /// Replaces the source; the interpolation stays, as in NIST's library.
+    pub(crate) fn replace(&mut self, text: &str, context: &Context<'_>) -> Result<(), SetError> {
+        let (source, asked) = Source::of_table(text, context)?;
+        let (axis, rise) = (self.reading.axis, self.reading.rise);
+        let reading = Reading { axis, rise, parameters: Vec::new() };
+        let column = asked.unwrap_or(2);
+        let table = source.table(column, &reading, context.library)?;
+        *self = Self { text: text.into(), source, column, reading, table };
+        Ok(())
     }
 
     pub(crate) fn value(&self) -> Table {
@@ -87,9 +92,9 @@ impl TableState {
         } else if name.eq_ignore_ascii_case("interpolationy") {
             self.reading.rise = rise(text)?;
         } else if self.source.parameters().contains(&name) {
-            let value = number_prefix(text.as_bytes()).value.ok_or_else(|| {
-                SetError::value(format!("{text:?} is not a number"))
-            })?;
+            let value = number_prefix(text.as_bytes())
+                .value
+                .ok_or_else(|| SetError::value(format!("{text:?} is not a number")))?;
             self.reading.parameters.retain(|(known, _)| known != name);
             self.reading.parameters.push((name.to_owned(), value));
         } else {

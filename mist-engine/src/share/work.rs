@@ -147,8 +147,8 @@ impl<'a> Shared<'a> {
             })
             .collect();
         for ((key, wanted_by), layout) in wanted.into_iter().zip(made) {
-            let layout =
-                layout.map_err(|error| self.failure(block, wanted_by, |n| self.region(n, &error)))?;
+            let layout = layout
+                .map_err(|error| self.failure(block, wanted_by, |n| self.region(n, &error)))?;
             let numbered = (self.next_layout, Arc::new(layout));
             self.next_layout += 1;
             self.layouts.insert(key.clone(), numbered.clone(), numbered.1.bytes());
@@ -222,9 +222,9 @@ impl<'a> Shared<'a> {
                 }
                 Ok(None) => return Err(Failure::Cancelled),
                 Err(error) => {
-                    return Err(self.failure(block, piece.wanted_by, |_| {
-                        self.job.parameter_fault(&error)
-                    }));
+                    return Err(
+                        self.failure(block, piece.wanted_by, |_| self.job.parameter_fault(&error))
+                    );
                 }
             }
             if let Ok(built) = piece.cell.get() {

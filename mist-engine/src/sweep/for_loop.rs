@@ -73,7 +73,11 @@ impl ForState {
         self.fraction = (self.value - from) / (to - from);
         let inside = if Quirk::LostNegativeEnd.applies_in(context.mode) {
             // The factors are NIST's; a negative end moves the wrong way.
-            if to > from { self.value <= to * 1.00000000001 } else { self.value >= to * 0.999999999999 }
+            if to > from {
+                self.value <= to * 1.00000000001
+            } else {
+                self.value >= to * 0.999999999999
+            }
         } else {
             let slack = 1e-6 * by.abs();
             if to > from { self.value <= to + slack } else { self.value >= to - slack }
@@ -91,7 +95,11 @@ impl ForState {
     }
 
     pub(crate) fn cell(&self, plan: &ForPlan) -> Cell {
-        if plan.is_text { Cell::Text(number::loop_text(self.value)) } else { Cell::Number(self.value) }
+        if plan.is_text {
+            Cell::Text(number::loop_text(self.value))
+        } else {
+            Cell::Number(self.value)
+        }
     }
 
     pub(crate) fn fraction(&self) -> f64 {
@@ -104,11 +112,14 @@ impl ForState {
 }
 
 fn endless(plan: &ForPlan, from: f64, to: f64, by: f64) -> Fault {
-    let message = format!("this loop never ends: from {from} in steps of {by} it does not pass {to}");
+    let message =
+        format!("this loop never ends: from {from} in steps of {by} it does not pass {to}");
     let help = if from == to {
         "for a single value assign it in VARIABLES, or write BY -1".to_owned()
     } else {
-        format!("give BY the sign of the way from {from} to {to}, and a size that changes the value")
+        format!(
+            "give BY the sign of the way from {from} to {to}, and a size that changes the value"
+        )
     };
     Box::new(
         Diagnostic::error("loop/endless", plan.statement.span, message)
