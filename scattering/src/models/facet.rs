@@ -10,11 +10,13 @@ use crate::{
 
 pub mod bare;
 pub mod shadowed;
+pub mod shadowed_subsurface;
 pub mod subsurface;
 mod turn;
 
 /// The models of this group, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Brdf>] = &[&bare::SPEC, &shadowed::SPEC, &subsurface::SPEC];
+pub const ALL: &[&Spec<dyn Brdf>] =
+    &[&bare::SPEC, &shadowed::SPEC, &subsurface::SPEC, &shadowed_subsurface::SPEC];
 
 /// The parameters of every facet model: slopes, and films on the facets.
 pub const FACET: &[Param] = &[

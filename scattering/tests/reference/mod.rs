@@ -5,7 +5,7 @@
 //! The language itself lives in another crate, so only the forms that occur in the file are read.
 
 // Each test binary compiles this module and uses its own part of it.
-#![allow(dead_code)]
+#![allow(dead_code, unused_imports)]
 
 use std::sync::LazyLock;
 

@@ -66,10 +66,10 @@ pub(crate) struct SubsurfaceFacet {
     unturned: bool,
 }
 
-/// A ray pair inside the coat with the coefficients of both crossings.
-struct Inside {
-    incidence: Incidence,
-    direction: Direction,
+/// The two rays inside the coat.
+pub(super) struct Inside {
+    pub(super) incidence: Incidence,
+    pub(super) direction: Direction,
 }
 
 impl SubsurfaceFacet {
@@ -99,7 +99,8 @@ impl SubsurfaceFacet {
         &*self.slopes
     }
 
-    fn inside(&self, incidence: &Incidence, direction: &Direction) -> Inside {
+    /// The rays that belong to these outside the coat.
+    pub(super) fn inside(&self, incidence: &Incidence, direction: &Direction) -> Inside {
         let (sin_i, sin_s) = (incidence.sin / self.coat, direction.sin / self.coat);
         Inside {
             incidence: Incidence {
@@ -141,7 +142,7 @@ impl SubsurfaceFacet {
 }
 
 /// `out`·J·`into` for diagonal `out` and `into`.
-pub(super) fn between(out: Pair, jones: Jones, into: Pair) -> Jones {
+fn between(out: Pair, jones: Jones, into: Pair) -> Jones {
     Jones {
         ss: out.s * jones.ss * into.s,
         ps: out.s * jones.ps * into.p,

@@ -1,0 +1,230 @@
+//! Every model obeys the laws that its class claims, with its defaults and a few variants of them.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use num_complex::Complex64;
+use scattering::{
+    Basis, Geometry, Kind, Mode, Model, Mueller, Node, Value, models,
+    optics::Index,
+    spec::{Laws, find_class},
+};
+
+/// Reciprocity and symmetry of the closed forms hold to rounding, those of sums over Bessel
+/// functions or quadratures to about 10⁻¹⁰ of the largest element.
+const SYMMETRY: f64 = 1e-9;
+
+/// Rounding of a coherency matrix relative to the intensity.
+const REALIZABLE: f64 = 1e-12;
+
+fn geometries() -> Vec<Geometry> {
+    let at = |theta_i, theta_s, phi_s, rotation| Geometry { theta_i, theta_s, phi_s, rotation };
+    vec![
+        at(0.5, 0.6, 0.7, 0.1),
+        at(1.1, 0.2, -2.3, 0.9),
+        at(0.05, 1.3, 3.0, -1.2),
+        at(1.2, 1.0, 0.1, 2.0),
+    ]
+}
+
+/// The model with its defaults, and what its parameters allow of: every type over a transparent
+/// substrate, elliptic slopes, a film.
+fn variants(defaults: &Node) -> Vec<(String, Model)> {
+    let name = defaults.class.name;
+    // Some refuse the absorbing default substrate.
+    let mut found: Vec<_> =
+        models::build(defaults).into_iter().map(|model| (name.to_owned(), model)).collect();
+    for n in [1.5, 1.0] {
+        let substrate = Value::Index(Index::constant(n, 0.0));
+        for side in 0..4 {
+            let node = defaults.clone().with("substrate", substrate.clone());
+            let node = node.and_then(|node| node.with("type", Value::Integer(side)));
+            // Models that lack a type refuse it, particles in a substrate one that is not theirs.
+            if let Ok(model) = node.and_then(|node| models::build(&node)) {
+                found.push((format!("{name}, substrate {n}, type {side}"), model));
+            }
+        }
+        if !found.is_empty() {
+            break;
+        }
+    }
+    assert!(!found.is_empty(), "no variant of {name} can be built");
+    for (parameter, class) in [
+        ("sdf", "Anisotropic_Exponential_Slope_Distribution_Function"),
+        ("sdf", "Anisotropic_Gaussian_Slope_Distribution_Function"),
+        ("stack", "SingleFilm_StackModel"),
+    ] {
+        let has = defaults
+            .class
+            .parameter(parameter)
+            .is_some_and(|(_, p)| matches!(p.kind, Kind::Member(..)));
+        if !has {
+            continue;
+        }
+        let member = Node::with_defaults(find_class(class).unwrap(), Mode::Sound);
+        let node = defaults.clone().with(parameter, Value::Member(member.into())).unwrap();
+        found.extend(models::build(&node).into_iter().map(|m| (format!("{name}, {class}"), m)));
+    }
+    found
+}
+
+/// Every variant of every class that claims a law.
+fn claimed(law: fn(&Laws) -> bool) -> Vec<(String, Model)> {
+    models::all()
+        .filter(|spec| law(&spec.class.laws))
+        .flat_map(|spec| variants(&Node::with_defaults(&spec.class, Mode::Sound)))
+        .collect()
+}
+
+fn compare(name: &str, at: &Geometry, got: Mueller, expected: Mueller) -> Option<String> {
+    let difference = (got - expected).largest();
+    let bad = difference.is_nan() || difference > SYMMETRY * expected.largest();
+    bad.then(|| format!("{name} at {at:?}: {:e}", difference / expected.largest()))
+}
+
+fn assert_none(wrong: &[String]) {
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_reversed_path_has_the_transposed_matrix() {
+    let p = Mueller::diagonal([1.0, 1.0, -1.0, 1.0]);
+    let mut wrong = Vec::new();
+    for (name, model) in claimed(|laws| laws.reciprocal) {
+        let side = model.common().side;
+        if side.from_below() != side.to_below() {
+            // The reversed path of a transmission is one of the other type.
+            continue;
+        }
+        for at in geometries() {
+            let back = Geometry {
+                theta_i: at.theta_s,
+                theta_s: at.theta_i,
+                phi_s: -at.phi_s,
+                rotation: at.rotation + PI - at.phi_s,
+            };
+            let expected = p * model.mueller(&at, Basis::Psps).transposed() * p;
+            wrong.extend(compare(&name, &at, model.mueller(&back, Basis::Psps), expected));
+        }
+    }
+    assert_none(&wrong);
+}
+
+#[test]
+fn the_mirror_image_has_the_mirrored_matrix() {
+    let q = Mueller::diagonal([1.0, 1.0, -1.0, -1.0]);
+    let mut wrong = Vec::new();
+    for (name, model) in claimed(|laws| laws.mirror) {
+        for at in geometries() {
+            let image = Geometry { phi_s: -at.phi_s, rotation: -at.rotation, ..at };
+            let expected = q * model.mueller(&at, Basis::Psps) * q;
+            wrong.extend(compare(&name, &at, model.mueller(&image, Basis::Psps), expected));
+        }
+    }
+    assert_none(&wrong);
+}
+
+#[test]
+fn matrices_can_be_realized() {
+    let mut wrong = Vec::new();
+    for (name, model) in claimed(|laws| laws.realizable) {
+        for at in geometries() {
+            if !is_realizable(&model.mueller(&at, Basis::Psps)) {
+                wrong.push(format!("{name} at {at:?}"));
+            }
+        }
+    }
+    assert_none(&wrong);
+}
+
+#[test]
+fn passive_models_return_no_more_light_than_came() {
+    for (name, model) in claimed(|laws| laws.passive) {
+        for theta_i in [0.0, 0.7, 1.4] {
+            let returned = most_returned(&model, theta_i);
+            assert!(returned < 1.0 + 1e-6, "{name} at {theta_i}: {returned}");
+        }
+    }
+}
+
+/// The fraction that returns of the incident polarization of which most returns.
+fn most_returned(model: &Model, theta_i: f64) -> f64 {
+    let (steps, azimuths) = (200, 48);
+    let mut sum = Mueller::ZERO;
+    for i in 0..steps {
+        // The midpoint rule in sin²θ, in which a constant is exact.
+        let sin2 = (f64::from(i) + 0.5) / f64::from(steps);
+        for j in 0..azimuths {
+            let phi_s = TAU * f64::from(j) / f64::from(azimuths);
+            let at = Geometry { theta_i, theta_s: sin2.sqrt().asin(), phi_s, rotation: 0.3 };
+            let weight = FRAC_PI_2 * 2.0 / f64::from(steps * azimuths);
+            sum += model.mueller(&at, Basis::Psps) * weight;
+        }
+    }
+    let polarized = (1..4).map(|k| sum[(0, k)] * sum[(0, k)]).sum::<f64>().sqrt();
+    sum[(0, 0)] + polarized
+}
+
+/// Whether the coherency matrix H = ¼ Σ m_ij σ_i ⊗ σ_j* has no eigenvalue below
+/// −[`REALIZABLE`]·M00: whether H plus that much of the unit matrix has a Cholesky factor.
+fn is_realizable(m: &Mueller) -> bool {
+    let shift = REALIZABLE * m[(0, 0)];
+    let mut l = [[Complex64::ZERO; 4]; 4];
+    for column in 0..4 {
+        for row in column..4 {
+            let known: Complex64 = (0..column).map(|k| l[row][k] * l[column][k].conj()).sum();
+            let rest = coherency(m, row, column) - known;
+            if row > column {
+                l[row][column] = rest / l[column][column];
+                continue;
+            }
+            let pivot = rest.re + shift;
+            if pivot <= 0.0 {
+                return m[(0, 0)] == 0.0 && m.largest() == 0.0;
+            }
+            l[row][row] = pivot.sqrt().into();
+        }
+    }
+    true
+}
+
+/// The element (row, column) of H; both indices count the pairs (out, in).
+fn coherency(m: &Mueller, row: usize, column: usize) -> Complex64 {
+    let mut sum = Complex64::ZERO;
+    for i in 0..4 {
+        for j in 0..4 {
+            let out = pauli(i, row / 2, column / 2);
+            let into = pauli(j, row % 2, column % 2).conj();
+            sum += 0.25 * m[(i, j)] * out * into;
+        }
+    }
+    sum
+}
+
+/// The matrices of I, Q, U and V = 2 Im(E_s* E_p).
+fn pauli(k: usize, row: usize, column: usize) -> Complex64 {
+    let i = Complex64::I;
+    let (one, zero) = (Complex64::ONE, Complex64::ZERO);
+    let matrices = [
+        [[one, zero], [zero, one]],
+        [[one, zero], [zero, -one]],
+        [[zero, one], [one, zero]],
+        [[zero, -i], [i, zero]],
+    ];
+    matrices[k][row][column]
+}
+
+#[test]
+fn the_test_of_realizability_knows_good_matrices_from_bad_ones() {
+    let jones = scattering::Jones {
+        ss: Complex64::new(0.3, 0.1),
+        ps: Complex64::new(-0.2, 0.7),
+        sp: Complex64::new(0.1, 0.4),
+        pp: Complex64::new(0.9, -0.5),
+    };
+    assert!(is_realizable(&jones.mueller()));
+    assert!(is_realizable(&Mueller::diagonal([1.0, 0.0, 0.0, 0.0])));
+    assert!(is_realizable(&Mueller::diagonal([1.0, 1.0, -1.0, -1.0])));
+    // A mirror that keeps the handedness of all light.
+    assert!(!is_realizable(&Mueller::diagonal([1.0, 1.0, 1.0, -1.0])));
+    assert!(!is_realizable(&Mueller::diagonal([1.0, 1.1, 1.0, 1.0])));
+}
