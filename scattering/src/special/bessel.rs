@@ -38,7 +38,7 @@ fn backward_recurrence<const N: usize>(x: f64) -> f64 {
         if order == N {
             wanted = here;
         }
-        if order % 2 == 0 {
+        if order.is_multiple_of(2) {
             norm += 2.0 * here;
         }
         (above, here) = (here, 2.0 * order as f64 / x * here - above);

@@ -56,7 +56,7 @@ pub(super) fn points(node: &Node) -> Result<Vec<Point>, ParamError> {
 }
 
 fn rule(order: usize, alpha: f64) -> Vec<Point> {
-    let rings = if order % 2 == 0 {
+    let rings = if order.is_multiple_of(2) {
         gauss::legendre(order / 2, 0.0, 1.0)
     } else {
         gauss::radau(order.div_ceil(2), 0.0, 1.0)

@@ -23,13 +23,9 @@ pub(super) struct Coherent {
 
 impl Coherent {
     /// Of the interfaces of `films`, the substrate's first, those in `which`.
-    pub(super) fn new(
-        rough: Rough,
-        films: &[(Complex64, f64)],
-        which: Range<usize>,
-    ) -> Box<dyn Brdf> {
+    pub(super) fn new(rough: Rough, films: &[(Complex64, f64)], which: Range<usize>) -> Self {
         let interfaces = Interfaces::new(&rough.common, films);
-        Box::new(Self { rough, interfaces, which })
+        Self { rough, interfaces, which }
     }
 
     /// One film: its index is the parameter `film`, its thickness `thickness`.
@@ -37,7 +33,7 @@ impl Coherent {
         let rough = Rough::read(node)?;
         let film = node.index("film").at(rough.common.lambda);
         let films = [(film, super::thickness(node, "thickness")?)];
-        Ok(Self::new(rough, &films, which))
+        Ok(Box::new(Self::new(rough, &films, which)))
     }
 
     fn sum(&self, jones: &[Jones]) -> Jones {

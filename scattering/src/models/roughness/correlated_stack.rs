@@ -28,6 +28,6 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     build: |node| {
         let rough = Rough::read(node)?;
         let films = node.member::<Stack>("stack")?.at(rough.common.lambda);
-        Ok(Coherent::new(rough, &films, 0..films.len() + 1))
+        Ok(Box::new(Coherent::new(rough, &films, 0..films.len() + 1)))
     },
 };

@@ -36,7 +36,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
                 let problem = format!("{layer} is not an interface from 0 to {}", films.len());
                 ParamError::new("this_layer", problem)
             })?;
-        Ok(Coherent::new(rough, &films, interface..interface + 1))
+        Ok(Box::new(Coherent::new(rough, &films, interface..interface + 1)))
     },
 };
 

@@ -59,12 +59,12 @@ impl Harmonic {
 
 /// R_n^k = Σ_s (−1)^s (n−s)! / (s! ((n+k)/2−s)! ((n−k)/2−s)!) ρ^(n−2s), by rising powers.
 fn radial(n: u32, k: u32) -> Vec<f64> {
-    if k > n || (n - k) % 2 == 1 {
+    if k > n || !(n - k).is_multiple_of(2) {
         return Vec::new();
     }
     let (sum, difference) = ((n + k) / 2, (n - k) / 2);
     let term = |s: u32| {
-        let sign = if s % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if s.is_multiple_of(2) { 1.0 } else { -1.0 };
         sign * factorial(n - s) / (factorial(s) * factorial(sum - s) * factorial(difference - s))
     };
     (0..=difference).rev().map(term).collect()
