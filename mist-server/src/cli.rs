@@ -48,7 +48,7 @@ enum Command {
 /// Runs the command that the arguments of the process name.
 pub fn main() -> ExitCode {
     let done = match Cli::parse().command {
-        Command::Run(args) => run::run(&args),
+        Command::Run(args) => run::run(args),
         Command::Check(args) => check::check(&args),
         Command::Models(args) => models::models(&args),
         Command::Color(args) => color::color(&args),

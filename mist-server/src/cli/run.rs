@@ -2,6 +2,7 @@
 
 use std::{
     fmt::Write as _,
+    fs,
     path::{Path, PathBuf},
 };
 
@@ -39,7 +40,8 @@ Examples:
   mist run --compat --out nist old/*.mist
   mist run --job glossy --threads 4 paint.mist")]
 pub(super) struct Args {
-    /// Programs.
+    /// Programs; with --compat a second name that is no file names the job, as NIST's program
+    /// has it.
     #[arg(required = true)]
     programs: Vec<PathBuf>,
     /// Name of the job: files that the program does not name are called after it [default: the
@@ -63,8 +65,24 @@ pub(super) struct Args {
     message_format: MessageFormat,
 }
 
+impl Args {
+    /// NIST's program takes a second argument for the name of the job.
+    fn take_job_name(&mut self) {
+        let [_, second] = &self.programs[..] else { return };
+        if self.compat && self.job.is_none() && !second.exists() {
+            self.job = Some(second.to_string_lossy().into_owned());
+            self.programs.truncate(1);
+        }
+    }
+}
+
 /// Runs the programs one after the other; each uses all threads.
-pub(super) fn run(args: &Args) -> Result<(), Stop> {
+pub(super) fn run(mut args: Args) -> Result<(), Stop> {
+    args.take_job_name();
+    let args = &args;
+    fs::create_dir_all(&args.out).map_err(|error| {
+        Stop::Failed(format!("cannot make the folder {}: {error}", args.out.display()))
+    })?;
     if args.job.is_some() && args.programs.len() > 1 {
         return Err(Stop::Refused("--job names one job, but there are several programs".into()));
     }

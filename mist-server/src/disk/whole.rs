@@ -16,7 +16,7 @@ pub(crate) struct WholeFile {
 }
 
 impl WholeFile {
-    /// Begins the file `path`; folders above it are made.
+    /// Begins the file `path` in a folder that exists.
     ///
     /// # Errors
     ///
@@ -29,7 +29,10 @@ impl WholeFile {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
-        fs::create_dir_all(folder)?;
+        if !folder.is_dir() {
+            let reason = format!("there is no folder {}; make it first", folder.display());
+            return Err(io::Error::new(io::ErrorKind::NotFound, reason));
+        }
         let file = tempfile::Builder::new()
             .prefix(".mist-")
             .suffix(".tmp")

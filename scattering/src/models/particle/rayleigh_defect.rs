@@ -37,7 +37,13 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             &[
                 Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
                 Param::number("radius", "0.001", "um", "Radius of the sphere"),
-                Param::number("distance", "0", "um", "Depth of the centre in the substrate"),
+                Param::number(
+                    "distance",
+                    "0",
+                    "um",
+                    "Depth of the centre below the face of the substrate; with a negative one the wave of the \
+                     substrate is continued upwards",
+                ),
                 Param::index("defect", "(1,0)", "Index of the sphere"),
             ],
         ],
@@ -47,15 +53,15 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         let common = Common::read(node)?;
         let films = node.member::<Stack>("stack")?.at(common.lambda);
         let distance = node.number("distance");
-        if !(distance >= 0.0 && distance.is_finite()) {
-            let problem = format!("{distance} um is not a depth in the substrate");
-            return Err(ParamError::new("distance", problem));
+        if !distance.is_finite() {
+            return Err(ParamError::new("distance", format!("{distance} um is not a distance")));
         }
         let place = Place { depth: total(&films) + distance, medium: common.substrate };
         let defect = node.index("defect").at(common.lambda);
         let sphere = SmallSphere::new(node, common, &films, place, defect)?;
         let lossy = common.side != Side::DownUp && node.reproduces(Defect::TinyLoss);
-        Ok(Box::new(if lossy { sphere.with_tiny_loss(&films, distance) } else { sphere }))
+        let own_wave = lossy || distance < 0.0;
+        Ok(Box::new(if own_wave { sphere.in_substrate(&films, distance, lossy) } else { sphere }))
     },
 };
 

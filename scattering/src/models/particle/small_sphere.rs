@@ -19,7 +19,7 @@ use crate::{
     Direction, Incidence, Jones, Mueller, Node, ParamError,
     models::{Brdf, Common},
     optics::{
-        film::{Fields, Films, Wave},
+        film::{Fields, Films, Wave, decaying_root},
         first_order::{Drive, FirstOrder},
     },
 };
@@ -33,9 +33,9 @@ pub(super) struct Place {
     pub medium: Complex64,
 }
 
-/// NIST's reflection of light from the substrate ([`Defect::TinyLoss`](crate::Defect::TinyLoss))
-/// at a sphere in the substrate.
-struct Lossy {
+/// The waves at a sphere that are known from the face of the substrate: those of a sphere above
+/// the face, and NIST's with its tiny loss ([`Defect::TinyLoss`](crate::Defect::TinyLoss)).
+struct FromFace {
     films: Films,
     /// Distance of the sphere from the face of the substrate, µm.
     distance: f64,
@@ -50,7 +50,7 @@ pub(super) struct SmallSphere {
     /// C√density.
     coupling: Complex64,
     inverse_product: Complex64,
-    lossy: Option<Lossy>,
+    from_face: Option<FromFace>,
 }
 
 impl SmallSphere {
@@ -75,15 +75,22 @@ impl SmallSphere {
             coupling: dipole * around * (k * k * density.sqrt()),
             inverse_product: 1.0 / (around * around),
             stack,
-            lossy: None,
+            from_face: None,
         })
     }
 
-    /// The same for a sphere at `distance` in the substrate, with NIST's loss at its face.
-    pub(super) fn with_tiny_loss(self, films: &[(Complex64, f64)], distance: f64) -> Self {
+    /// The same for a sphere at `distance` below the face of the substrate, which may be
+    /// negative; with NIST's loss at the face if it is `lossy`.
+    pub(super) fn in_substrate(
+        self,
+        films: &[(Complex64, f64)],
+        distance: f64,
+        lossy: bool,
+    ) -> Self {
         let Common { lambda, substrate, .. } = self.common;
-        let films = Films::new(films, Complex64::ONE, substrate, lambda).with_tiny_loss();
-        Self { lossy: Some(Lossy { films, distance }), ..self }
+        let stack = Films::new(films, Complex64::ONE, substrate, lambda);
+        let stack = if lossy { stack.with_tiny_loss() } else { stack };
+        Self { from_face: Some(FromFace { films: stack, distance }), ..self }
     }
 
     /// Fields at the sphere for a wave with this sine of its angle and this tangential index.
@@ -94,8 +101,18 @@ impl SmallSphere {
         } else {
             (Wave::FromSubstrate, films.substrate())
         };
-        match &self.lossy {
-            Some(lossy) if from == own_side => lossy.fields(sin, index, self.stack.lambda()),
+        match &self.from_face {
+            Some(face) if from == own_side => face.fields(sin, index, self.stack.lambda()),
+            Some(face) if face.distance < 0.0 => {
+                // The wave in the substrate is a single one: continued from the face.
+                let upwards = -face.distance;
+                let at_face =
+                    self.depth + if self.stack.is_turned_over() { -upwards } else { upwards };
+                let q = decaying_root(index * index - kappa * kappa);
+                let phase = (Complex64::I * q * (TAU / self.stack.lambda() * face.distance)).exp();
+                let Fields { e, u, w } = films.fields_at_depth(from, kappa, at_face);
+                Fields { e: e * phase, u: u * phase, w: w * phase }
+            }
             _ => films.fields_at_depth(from, kappa, self.depth),
         }
     }
@@ -113,7 +130,7 @@ impl SmallSphere {
     }
 }
 
-impl Lossy {
+impl FromFace {
     /// Fields of a unit wave from the sphere's own medium, of index `index` at the wavelength
     /// `lambda`, and of its reflection.
     fn fields(&self, sin: f64, index: Complex64, lambda: f64) -> Fields {
