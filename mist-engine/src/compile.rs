@@ -92,10 +92,6 @@ impl Compiler<'_> {
         })
     }
 
-    fn note(&mut self, fault: Fault) {
-        self.faults.push(*fault);
-    }
-
     fn class(&mut self, model: &Text) -> Option<&'static Class> {
         let name = model.as_str();
         if let Some(found) = scattering::models::find(name) {
@@ -114,7 +110,7 @@ impl Compiler<'_> {
         };
         let help = did_you_mean(name, all)
             .unwrap_or_else(|| "`mist models` lists all models; case matters".into());
-        self.note(Box::new(fault_plain("program/unknown-model", model, message).help(help)));
+        self.faults.push(fault_plain("program/unknown-model", model, message).help(help));
         None
     }
 
@@ -127,7 +123,7 @@ impl Compiler<'_> {
     }
 
     fn expr_or_note(&mut self, text: &Text) -> Option<Expr> {
-        self.expr(text).map_err(|fault| self.note(fault)).ok()
+        self.expr(text).map_err(|fault| self.faults.push(*fault)).ok()
     }
 
     fn required(&mut self, program: &Program) -> Required {
@@ -208,7 +204,9 @@ impl Compiler<'_> {
         results: &BTreeSet<u32>,
     ) -> Option<LoopPlan> {
         match each {
-            Loop::For(statement) => self.for_plan(statement, entries, results).map(LoopPlan::For),
+            Loop::For(statement) => {
+                self.for_plan(statement, entries, results).map(|plan| LoopPlan::For(Box::new(plan)))
+            }
             Loop::List(statement) => {
                 self.list_plan(statement, entries, results).map(LoopPlan::List)
             }
@@ -369,7 +367,7 @@ impl Compiler<'_> {
         PrintfFormat::parse(text)
             .map_err(|error| {
                 let place = given.expect("the default format is sound");
-                self.note(fault("files/format", place, error.to_string()));
+                self.faults.push(fault_plain("files/format", place, error.to_string()));
             })
             .ok()
     }

@@ -29,7 +29,7 @@ impl Default for Limits {
 }
 
 /// Reports how much of a run is done, from 0 to 1.
-pub type Progress = Box<dyn Fn(f64) + Send + Sync>;
+pub(crate) type Progress = Box<dyn Fn(f64) + Send + Sync>;
 
 /// The two ends of a run's leash: it reports progress and asks whether to stop.
 #[derive(Default)]

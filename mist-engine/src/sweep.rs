@@ -17,7 +17,7 @@ use crate::{fault::Fault, scope::Scope, step::Cell};
 
 /// A loop as compiled.
 pub(crate) enum LoopPlan {
-    For(ForPlan),
+    For(Box<ForPlan>),
     List(ListPlan),
 }
 

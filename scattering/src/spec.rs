@@ -448,6 +448,7 @@ impl Node {
     }
 
     /// The index of refraction `name`.
+    #[allow(clippy::should_implement_trait)] // The getters are called like their kinds.
     pub fn index(&self, name: &str) -> &Index {
         match self.value(name) {
             Value::Index(index) => index,
