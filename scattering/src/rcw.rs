@@ -22,6 +22,7 @@ use crate::Jones;
 use layer::{Operators, Pair};
 use slab::Slab;
 
+mod dense;
 pub mod layer;
 pub mod slab;
 pub mod toeplitz;
@@ -200,7 +201,7 @@ struct Ladder {
 
 impl Ladder {
     fn new(layers: &[Operators], pair: impl Fn(&Operators) -> Pair, behind: &Matrix) -> Self {
-        let last = slab::cayley(&(behind * faer::Scale(-ONE)));
+        let last = dense::cayley(-ONE, behind.clone());
         let mut reflection = last.clone();
         let mut passage = Vec::with_capacity(layers.len());
         for layer in layers.iter().rev().filter(|layer| layer.depth > 0.0) {
@@ -214,10 +215,11 @@ impl Ladder {
 
     /// U reflected, or transmitted to `behind`, for the columns of U that come in.
     fn respond(&self, front: &Matrix, incoming: &Matrix, behind: bool) -> Matrix {
-        let one = Matrix::identity(front.nrows(), front.ncols());
+        let one = dense::identity(front.nrows());
         let (plus, minus) = (&one + front, &one - front);
         let r = &self.reflection;
-        let reflected = slab::solve(&(&plus - r * &minus), &((r * &plus - &minus) * incoming));
+        let driven = (r * &plus - &minus) * incoming;
+        let reflected = dense::solve(dense::add_product(plus.clone(), -ONE, r, &minus), driven);
         if !behind {
             return reflected;
         }

@@ -14,10 +14,13 @@
 //! M. Abramowitz, I. A. Stegun, *Handbook of Mathematical Functions*, 4.3.94; H. C. van de Hulst,
 //! *Multiple Light Scattering* (1980), for adding and doubling.
 
-use faer::{Scale, linalg::solvers::Solve};
-use num_complex::Complex64;
-
-use super::{I, Matrix, ONE, layer::Pair};
+use super::{
+    I, Matrix, ONE,
+    dense::{
+        add_product, cayley, column_norm, combination, half_sum_and_difference, identity, solve,
+    },
+    layer::Pair,
+};
 
 /// Largest argument of the tangent; at 1.25 its ninth convergent is right to 3·10⁻¹⁵, and the
 /// first pole is at 1.57.
@@ -38,13 +41,11 @@ impl Slab {
         let doublings = if doublings.is_finite() { doublings as u32 } else { 0 };
         let half = 0.5 * depth * (-f64::from(doublings)).exp2();
         let tangent = powers.tangent(half);
-        let even = cayley(&(&pair.q * &tangent * Scale(I)));
-        let odd = cayley(&(&tangent * &pair.p * Scale(I)));
-        let (plus, minus) = (&even - &odd, &even + &odd);
-        let mut slab = Self {
-            reflection: plus * Scale(Complex64::from(0.5)),
-            transmission: minus * Scale(Complex64::from(0.5)),
-        };
+        let even = cayley(I * half, &pair.q * &tangent);
+        let odd = cayley(I * half, &tangent * &pair.p);
+        // r_odd is minus the Cayley transform.
+        let (transmission, reflection) = half_sum_and_difference(even, odd);
+        let mut slab = Self { reflection, transmission };
         for _ in 0..doublings {
             slab = slab.doubled();
         }
@@ -60,21 +61,9 @@ impl Slab {
     /// waves between the two from those above.
     pub fn above(&self, below: &Matrix) -> (Matrix, Matrix) {
         let (r, t) = (&self.reflection, &self.transmission);
-        let one = Matrix::identity(r.nrows(), r.ncols());
-        let through = solve(&(one - r * below), t);
-        (r + t * (below * &through), through)
+        let through = solve(add_product(identity(r.nrows()), -ONE, r, below), t.clone());
+        (add_product(r.clone(), ONE, t, &(below * &through)), through)
     }
-}
-
-/// (1 − m)⁻¹(1 + m).
-pub fn cayley(m: &Matrix) -> Matrix {
-    let one = Matrix::identity(m.nrows(), m.ncols());
-    solve(&(&one - m), &one) * Scale(2.0 * ONE) - one
-}
-
-/// a⁻¹ b.
-pub fn solve(a: &Matrix, b: &Matrix) -> Matrix {
-    a.partial_piv_lu().solve(b)
 }
 
 /// The first four powers of a matrix.
@@ -94,28 +83,21 @@ impl Powers {
         column_norm(a).min(column_norm(a4).sqrt().sqrt())
     }
 
-    /// tan(√a h)/√a.
+    /// tan(√a h)/(√a h).
     fn tangent(&self, h: f64) -> Matrix {
         let (numerator, denominator) = convergent();
-        solve(&self.polynomial(&denominator, h * h), &self.polynomial(&numerator, h * h))
-            * Scale(Complex64::from(h))
+        solve(self.polynomial(&denominator, h * h), self.polynomial(&numerator, h * h))
     }
 
     /// Σ c_k (a x)^k.
     fn polynomial(&self, c: &[f64; 5], x: f64) -> Matrix {
         let [a, a2, a3, a4] = &self.0;
-        let (c1, c2, c3, c4) = (c[1] * x, c[2] * x * x, c[3] * x.powi(3), c[4] * x.powi(4));
-        Matrix::from_fn(a.nrows(), a.ncols(), |i, j| {
-            let at = (i, j);
-            let constant = if i == j { c[0] } else { 0.0 };
-            a[at] * c1 + a2[at] * c2 + a3[at] * c3 + a4[at] * c4 + constant
-        })
+        let x2 = x * x;
+        combination(
+            c[0],
+            [(c[1] * x, a), (c[2] * x2, a2), (c[3] * x * x2, a3), (c[4] * x2 * x2, a4)],
+        )
     }
-}
-
-/// Largest sum of absolute values in a column.
-fn column_norm(m: &Matrix) -> f64 {
-    (0..m.ncols()).map(|j| m.col(j).iter().map(|z| z.norm()).sum()).fold(0.0, f64::max)
 }
 
 /// Numerator and denominator, in powers of x², of the ninth convergent of
@@ -136,6 +118,8 @@ fn convergent() -> ([f64; 5], [f64; 5]) {
 
 #[cfg(test)]
 mod tests {
+    use num_complex::Complex64;
+
     use super::*;
 
     fn scalar(z: Complex64) -> Matrix {

@@ -2,7 +2,10 @@
 
 use num_complex::Complex64;
 
-use super::{Matrix, slab::solve};
+use super::{
+    Matrix,
+    dense::{identity, solve},
+};
 
 /// Fourier coefficients −M…M of a periodic function.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,5 +30,5 @@ impl Series {
 
 /// The inverse of `m`.
 pub fn inverse(m: &Matrix) -> Matrix {
-    solve(m, &Matrix::identity(m.nrows(), m.ncols()))
+    solve(m.clone(), identity(m.nrows()))
 }

@@ -54,3 +54,39 @@ pub(crate) fn projected(model: &Model, theta_i: f64, rotation: f64, to: &Directi
 pub(crate) fn seen(m: &Mueller, source: [f64; 4], detector: [f64; 4]) -> f64 {
     Stokes(detector).dot(&(*m * Stokes(source)))
 }
+
+/// A line grating model with a narrow cone, for tests that look at one order at a time.
+pub(crate) struct Lines {
+    pub(crate) lambda: f64,
+    pub(crate) period: f64,
+    pub(crate) order: i32,
+    pub(crate) substrate: (f64, f64),
+}
+
+/// Half angle of the cones in these tests; no two orders are that close.
+pub(crate) const ALPHA: f64 = 1e-3;
+
+impl Lines {
+    /// The model of `kind` 0–3 with a grating of class `class`.
+    pub(crate) fn model(&self, kind: i32, class: &str, values: &[(&str, Value)]) -> Model {
+        let substrate = index(self.substrate.0, self.substrate.1);
+        let mut all = vec![("period", number(self.period)), ("medium_t", substrate.clone())];
+        all.extend(values.iter().map(|(name, value)| (*name, value.clone())));
+        model(
+            "RCW_BRDF_Model",
+            &[
+                ("lambda", number(self.lambda)),
+                ("alpha", number(ALPHA)),
+                ("order", integer(self.order)),
+                ("substrate", substrate),
+                ("type", integer(kind)),
+                ("grating", member(class, &all)),
+            ],
+        )
+    }
+}
+
+/// Mueller efficiency of the order whose lateral direction is (x, y).
+pub(crate) fn efficiency(model: &Model, theta_i: f64, rotation: f64, x: f64, y: f64) -> Mueller {
+    projected(model, theta_i, rotation, &direction(x, y)) * (std::f64::consts::PI * ALPHA * ALPHA)
+}
