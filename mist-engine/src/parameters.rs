@@ -17,6 +17,7 @@ mod table;
 use std::sync::Arc;
 
 pub use error::SetError;
+pub(crate) use fingerprint::Digest;
 pub use fingerprint::Fingerprint;
 
 use object::Object;
@@ -28,7 +29,8 @@ use crate::Library;
 #[derive(Clone, Debug)]
 pub struct Parameters {
     root: Arc<Object>,
-    fingerprint: Fingerprint,
+    /// Known unless a parameter was set since.
+    fingerprint: Option<Fingerprint>,
 }
 
 /// What setting a parameter needs besides its name and text.
@@ -44,9 +46,7 @@ pub(crate) struct Context<'a> {
 impl Parameters {
     /// Every parameter of `class` at its default.
     pub fn new(class: &'static Class) -> Self {
-        let root = Arc::new(Object::new(class));
-        let fingerprint = root.fingerprint();
-        Self { root, fingerprint }
+        Self { root: Arc::new(Object::new(class)), fingerprint: None }
     }
 
     /// The class of the model.
@@ -76,19 +76,24 @@ impl Parameters {
         Arc::make_mut(&mut self.root)
             .set(path, text, &mut context, before)
             .map_err(|error| error.named(path))?;
-        self.fingerprint = self.root.fingerprint();
+        self.fingerprint = None;
         Ok(())
     }
 
     /// Sets every parameter called `lambda`, of the model and of all objects in it, in µm.
     pub fn set_wavelength(&mut self, lambda: f64) {
         Arc::make_mut(&mut self.root).set_wavelength(lambda);
-        self.fingerprint = self.root.fingerprint();
+        self.fingerprint = None;
     }
 
     /// Equal for states that build equal models.
     pub fn fingerprint(&self) -> Fingerprint {
-        self.fingerprint
+        self.fingerprint.unwrap_or_else(|| self.root.fingerprint())
+    }
+
+    /// Computes the digest, so that clones share it.
+    pub(crate) fn seal(&mut self) {
+        self.fingerprint = Some(self.fingerprint());
     }
 
     /// The typed values from which the model is built.
@@ -100,7 +105,7 @@ impl Parameters {
     pub(crate) fn forget_other_wavelengths(&mut self) {
         if self.root.remembers() {
             Arc::make_mut(&mut self.root).forget_other_wavelengths(None);
-            self.fingerprint = self.root.fingerprint();
+            self.fingerprint = None;
         }
     }
 }

@@ -3,10 +3,11 @@
 //! A replay owns the variables, the loops and the model's parameters, and yields one
 //! independent [`Step`] per combination of loop values. It never evaluates the model.
 
+use std::sync::Arc;
+
 use mist_format::{
     Diagnostic, Program,
     expr::{EvalError, Expr, Stack, Value},
-    number::whole_number,
     program::{Shape, Text},
 };
 use scattering::{Mode, Stokes};
@@ -21,13 +22,21 @@ use crate::{
     sampling::Sampling,
     scope::Scope,
     step::{Integral, Step},
-    sweep::{Context, Sweep},
+    sweep::{Context, Sweep, Written},
 };
 
 /// What an entry holds for the rest of the run after a loop has written it.
 struct Overwritten {
-    text: String,
+    text: Arc<str>,
+    number: Option<f64>,
     expr: Option<Expr>,
+}
+
+/// What an entry sent to the model last.
+struct Sent {
+    text: String,
+    /// The bits of the number, if it was one.
+    bits: Option<u64>,
 }
 
 /// A run of the expressions of a job.
@@ -37,7 +46,7 @@ pub struct Replay<'j> {
     stack: Stack,
     sweep: Option<Sweep<'j>>,
     overwritten: Vec<Option<Overwritten>>,
-    last_sent: Vec<Option<String>>,
+    last_sent: Vec<Option<Sent>>,
     parameters: Parameters,
     /// The parameters of the step before: NIST's library remembers optical constants by them.
     previous: Option<Parameters>,
@@ -59,7 +68,7 @@ impl<'j> Replay<'j> {
             stack: Stack::default(),
             sweep: None,
             overwritten: (0..entries).map(|_| None).collect(),
-            last_sent: vec![None; entries],
+            last_sent: (0..entries).map(|_| None).collect(),
             parameters: Parameters::new(job.class),
             previous: None,
             index: 0,
@@ -85,6 +94,7 @@ impl<'j> Replay<'j> {
         if self.job.options.mode == Mode::Compat {
             self.parameters.forget_other_wavelengths();
         }
+        self.parameters.seal();
         let step = self.step(listing)?;
         self.previous = Some(self.parameters.clone());
         self.index += 1;
@@ -113,7 +123,8 @@ impl<'j> Replay<'j> {
         if goes_on && let Some(sweep) = &mut self.sweep {
             for written in sweep.take_written() {
                 let slot = &mut self.overwritten[written.entry];
-                *slot = Some(Overwritten { text: written.text, expr: None });
+                let Written { text, number, .. } = written;
+                *slot = Some(Overwritten { text, number, expr: None });
             }
         }
         Ok(goes_on)
@@ -136,16 +147,21 @@ impl<'j> Replay<'j> {
         let entry = &self.job.entries[at];
         let Some(slot) = entry.slot else {
             let text = match &self.overwritten[at] {
-                Some(over) => over.text.clone(),
+                Some(over) => over.text.to_string(),
                 None => self.text(entry).as_str().to_owned(),
             };
-            return self.send(at, text, listing);
+            return self.send(at, Sent { text, bits: None }, listing);
         };
         let value = self.entry_value(at, entry)?;
         if entry.parameter.is_some() {
-            let text = value.to_text();
+            let bits = match value.as_slice() {
+                [one] => Some(one.to_bits()),
+                _ => None,
+            };
+            let same = self.last_sent[at].as_ref().is_some_and(|sent| sent.bits == bits);
+            let text = if same && bits.is_some() { None } else { Some(value.to_text()) };
             self.scope.set(slot, value);
-            self.send(at, text, listing)
+            text.map_or(Ok(()), |text| self.send(at, Sent { text, bits }, listing))
         } else {
             self.scope.set(slot, value);
             Ok(())
@@ -157,7 +173,7 @@ impl<'j> Replay<'j> {
         let expr = match &mut self.overwritten[at] {
             None => entry.expr.as_ref().expect("an entry with a slot has an expression"),
             Some(over) => {
-                if let Some(x) = whole_number(&over.text) {
+                if let Some(x) = over.number {
                     return Ok(x.into());
                 }
                 if over.expr.is_none() {
@@ -176,15 +192,18 @@ impl<'j> Replay<'j> {
     }
 
     /// Sends a parameter to the model, unless this entry sent the same text before.
-    fn send(&mut self, at: usize, text: String, listing: &mut String) -> Result<(), Fault> {
-        if self.last_sent[at].as_ref() == Some(&text) {
+    fn send(&mut self, at: usize, sent: Sent, listing: &mut String) -> Result<(), Fault> {
+        let text = &sent.text;
+        if self.last_sent[at].as_ref().is_some_and(|last| last.text == *text) {
             return Ok(());
         }
         let entry = &self.job.entries[at];
         let name = entry.parameter.as_deref().expect("only parameters are sent");
-        listing.push_str(&format!("Setting parameter {name} to {text}\n"));
+        for part in ["Setting parameter ", name, " to ", text, "\n"] {
+            listing.push_str(part);
+        }
         let mode = self.job.options.mode;
-        self.parameters.set(name, &text, &self.job.library, mode, self.previous.as_ref()).map_err(
+        self.parameters.set(name, text, &self.job.library, mode, self.previous.as_ref()).map_err(
             |error| {
                 let variable = &self.job.program.variables[entry.variable];
                 let place =
@@ -195,7 +214,7 @@ impl<'j> Replay<'j> {
         if !Quirk::NoResend.applies_in(mode) {
             self.forget_below(at, name);
         }
-        self.last_sent[at] = Some(text);
+        self.last_sent[at] = Some(sent);
         Ok(())
     }
 

@@ -10,6 +10,8 @@ mod list_loop;
 pub(crate) use for_loop::{ForPlan, ForState};
 pub(crate) use list_loop::{Column, ListPlan, ListState};
 
+use std::sync::Arc;
+
 use mist_format::expr::Stack;
 use scattering::Mode;
 
@@ -45,7 +47,9 @@ pub(crate) struct Written {
     /// The entry.
     pub(crate) entry: usize,
     /// Its new text.
-    pub(crate) text: String,
+    pub(crate) text: Arc<str>,
+    /// The number that the text is, if it is one.
+    pub(crate) number: Option<f64>,
 }
 
 /// What loops need to evaluate their expressions.

@@ -1,10 +1,18 @@
 //! A cache that forgets everything when it holds too much.
 
-use std::{collections::HashMap, hash::Hash};
+use std::{
+    collections::HashMap,
+    hash::{BuildHasherDefault, Hash},
+};
+
+use crate::parameters::Digest;
+
+/// A map with a fast hash; its order is never used.
+pub(crate) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Digest>>;
 
 /// Values of a total weight up to a bound.
 pub(crate) struct Kept<K, V> {
-    map: HashMap<K, V>,
+    map: Map<K, V>,
     weight: usize,
     most: usize,
 }
@@ -12,7 +20,7 @@ pub(crate) struct Kept<K, V> {
 impl<K: Hash + Eq, V: Clone> Kept<K, V> {
     /// A cache for a total weight up to `most`.
     pub(crate) fn up_to(most: usize) -> Self {
-        Self { map: HashMap::new(), weight: 0, most }
+        Self { map: Map::default(), weight: 0, most }
     }
 
     pub(crate) fn get(&self, key: &K) -> Option<&V> {

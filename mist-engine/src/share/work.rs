@@ -1,18 +1,13 @@
 //! The evaluation of a block of steps: unique pieces of work, done in parallel.
 
-use std::{
-    collections::{BTreeSet, HashMap},
-    f64::consts::FRAC_PI_2,
-    fmt::Write as _,
-    sync::Arc,
-};
+use std::{collections::BTreeSet, f64::consts::FRAC_PI_2, fmt::Write as _, sync::Arc};
 
 use mist_format::{Diagnostic, number::general};
 use rayon::prelude::*;
 use scattering::{Defect, Direction, Incidence, Mueller, ParamError};
 
 use super::{
-    kept::Kept,
+    kept::{Kept, Map},
     models::{ModelCell, Models},
 };
 use crate::{
@@ -99,7 +94,7 @@ impl<'a> Shared<'a> {
         meter: &mut Meter<'_>,
     ) -> Result<Vec<Vec<f64>>, Failure> {
         let layouts = self.lay_out(block)?;
-        let mut known: HashMap<Key, Mueller> = HashMap::new();
+        let mut known: Map<Key, Mueller> = Map::default();
         let mut work: Vec<Work> = Vec::new();
         let mut keys = Vec::with_capacity(block.len());
         for (at, step) in block.iter().enumerate() {
@@ -115,11 +110,8 @@ impl<'a> Shared<'a> {
     }
 
     /// The layout of every area in the block, made in parallel where it is new.
-    fn lay_out(
-        &mut self,
-        block: &[Step],
-    ) -> Result<HashMap<LayoutKey, (u64, Arc<Layout>)>, Failure> {
-        let mut layouts = HashMap::new();
+    fn lay_out(&mut self, block: &[Step]) -> Result<Map<LayoutKey, (u64, Arc<Layout>)>, Failure> {
+        let mut layouts = Map::default();
         let mut wanted: Vec<(LayoutKey, (usize, usize))> = Vec::new();
         let mut seen = BTreeSet::new();
         for (at, step) in block.iter().enumerate() {
@@ -162,8 +154,8 @@ impl<'a> Shared<'a> {
         &mut self,
         at: usize,
         step: &Step,
-        layouts: &HashMap<LayoutKey, (u64, Arc<Layout>)>,
-        known: &mut HashMap<Key, Mueller>,
+        layouts: &Map<LayoutKey, (u64, Arc<Layout>)>,
+        known: &mut Map<Key, Mueller>,
         work: &mut Vec<Work>,
     ) -> Vec<Key> {
         if step.integrals.is_empty() {
@@ -208,7 +200,7 @@ impl<'a> Shared<'a> {
         &mut self,
         block: &[Step],
         work: Vec<Work>,
-        known: &mut HashMap<Key, Mueller>,
+        known: &mut Map<Key, Mueller>,
     ) -> Result<(), Failure> {
         let stop = || self.control.is_cancelled();
         let basis = self.job.basis;

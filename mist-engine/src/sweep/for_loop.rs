@@ -107,7 +107,9 @@ impl ForState {
     }
 
     fn write(&self, plan: &ForPlan, written: &mut Vec<Written>) {
-        written.push(Written { entry: plan.entry, text: number::loop_text(self.value) });
+        let text = number::loop_text(self.value);
+        let number = number::whole_number(&text);
+        written.push(Written { entry: plan.entry, text: text.into(), number });
     }
 }
 

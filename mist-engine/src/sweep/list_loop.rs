@@ -90,7 +90,8 @@ impl ListState {
             } else {
                 evaluate(plan, raw, self.row, context)?
             };
-            written.push(Written { entry: column.entry, text });
+            let number = whole_number(&text);
+            written.push(Written { entry: column.entry, text: text.into(), number });
             self.cells.push(cell);
         }
         Ok(())

@@ -46,9 +46,27 @@ pub(super) fn general_finite(x: f64, digits: usize, alternate: bool) -> String {
         write_exponent(&mut text, exponent);
         text
     } else {
-        let places = (digits as i32 - 1 - exponent).max(0) as usize;
-        strip(&format!("{x:.places$}"), alternate)
+        strip(&plain(mantissa, exponent), alternate)
     }
+}
+
+/// `d.ddd` times 10^exponent without an exponent; the digits stay as they are.
+fn plain(mantissa: &str, exponent: i32) -> String {
+    let mut text = String::with_capacity(mantissa.len() + 6);
+    if exponent < 0 {
+        text.push_str("0.");
+        text.extend(std::iter::repeat_n('0', (-exponent - 1) as usize));
+        text.extend(mantissa.chars().filter(|c| *c != '.'));
+        return text;
+    }
+    let whole = exponent as usize + 1;
+    for (place, digit) in mantissa.chars().filter(|c| *c != '.').enumerate() {
+        if place == whole {
+            text.push('.');
+        }
+        text.push(digit);
+    }
+    text
 }
 
 /// Appends `e+05` and the like.
