@@ -118,6 +118,13 @@ impl Defect {
     }
 }
 
+impl Defect {
+    /// Whether it changes results by more than 10⁻⁹ somewhere; sound runs do not mention others.
+    pub fn is_noticeable(self) -> bool {
+        !matches!(self, Self::FacetRetro | Self::TinyLoss | Self::SlopeConstants)
+    }
+}
+
 impl fmt::Display for Defect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (number, effect) = self.describe();

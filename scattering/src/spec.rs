@@ -393,7 +393,10 @@ impl Node {
         match self.mode {
             Mode::Compat => true,
             Mode::Sound => {
-                self.met.lock().expect("no build panics while it notes a defect").insert(defect);
+                if defect.is_noticeable() {
+                    let mut met = self.met.lock().expect("no build panics while it notes one");
+                    met.insert(defect);
+                }
                 false
             }
         }

@@ -6,9 +6,7 @@ use std::{
     sync::Arc,
 };
 
-use mist_engine::{
-    Control, Failure, FileError, Files, MemorySink, Options, Summary, compile,
-};
+use mist_engine::{Control, Failure, FileError, Files, MemorySink, Options, Summary, compile};
 use mist_format::Diagnostic;
 use scattering::Mode;
 use serde::Deserialize;
@@ -121,8 +119,8 @@ pub fn run(folder: &Path, case: &Case, mode: Mode) -> Outcome {
     let stem = file.rsplit_once('.').map_or(file.as_str(), |(stem, _)| stem);
     let job = case.args.get(1).map_or(stem, String::as_str).to_owned();
     let options = Options { mode, job, ..Options::default() };
-    let job = compile(&latin1(&bytes), Arc::new(Folder(folder)), &options)
-        .map_err(Failure::Program)?;
+    let job =
+        compile(&latin1(&bytes), Arc::new(Folder(folder)), &options).map_err(Failure::Program)?;
     let mut sink = MemorySink::default();
     let summary = job.run(&mut sink, &Control::default())?;
     Ok((sink, summary))

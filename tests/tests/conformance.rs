@@ -58,13 +58,20 @@ fn monte_carlo(case: &Case, results: &str) -> Result<(), String> {
     Ok(())
 }
 
+/// Programs that are wrong on a disk only: the tests of the command line run them.
+const ABOUT_THE_DISK: &[&str] = &["v_err_files_unwritable"];
+
 fn all_pass(area: impl Fn(&str) -> bool + Sync) {
-    let cases: Vec<Case> =
-        corpus::cases(&corpus::folder()).into_iter().filter(|case| area(&case.area)).collect();
+    let cases: Vec<Case> = corpus::cases(&corpus::folder())
+        .into_iter()
+        .filter(|case| area(&case.area) && !ABOUT_THE_DISK.contains(&case.name.as_str()))
+        .collect();
     assert!(!cases.is_empty(), "no programs of this area");
     let failures: Vec<String> = cases
         .par_iter()
-        .filter_map(|case| judge(case).err().map(|why| format!("{} ({}): {why}", case.name, case.area)))
+        .filter_map(|case| {
+            judge(case).err().map(|why| format!("{} ({}): {why}", case.name, case.area))
+        })
         .collect();
     assert!(failures.is_empty(), "{} of {}:\n{}", failures.len(), cases.len(), failures.join("\n"));
 }
