@@ -119,18 +119,9 @@ struct Total {
 }
 
 impl Total {
-    /// Adds R(β)ᵀ M: S(β) = R S, so rows 1 and 2 of M are turned the other way.
     fn add(&mut self, m: &Mueller, weight: &Weight, flip: f64) {
-        let w = weight.weight;
-        let (c, s) = (w * weight.cos2b, w * flip * weight.sin2b);
-        let sum = &mut self.matrix.0;
-        for k in 0..4 {
-            sum[0][k] += w * m.0[0][k];
-            sum[1][k] += c * m.0[1][k] - s * m.0[2][k];
-            sum[2][k] += s * m.0[1][k] + c * m.0[2][k];
-            sum[3][k] += w * m.0[3][k];
-        }
-        self.weight += w;
+        weight.add_turned(m, flip, &mut self.matrix);
+        self.weight += weight.weight;
     }
 }
 

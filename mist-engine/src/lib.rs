@@ -43,6 +43,7 @@ pub mod colour;
 pub mod compile;
 pub mod integrate;
 pub mod job;
+pub mod material;
 pub mod output;
 pub mod parameters;
 pub mod quirk;

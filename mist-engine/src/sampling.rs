@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use scattering::Direction;
+use scattering::{Direction, Mueller};
 
 use crate::region::{Apertures, Frame, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
@@ -18,7 +18,7 @@ pub mod adaptive;
 mod key;
 mod pattern;
 mod projection;
-mod turn;
+pub(crate) mod turn;
 
 pub use key::LayoutKey;
 
@@ -72,6 +72,21 @@ pub(crate) struct Weight {
     pub(crate) cos2b: f64,
     /// sin 2β, to be negated for light that leaves downwards.
     pub(crate) sin2b: f64,
+}
+
+impl Weight {
+    /// Adds w R(β)ᵀ M: S(β) = R S, so rows 1 and 2 of M are turned the other way.
+    pub(crate) fn add_turned(&self, m: &Mueller, flip: f64, sum: &mut Mueller) {
+        let w = self.weight;
+        let (c, s) = (w * self.cos2b, w * flip * self.sin2b);
+        let sum = &mut sum.0;
+        for k in 0..4 {
+            sum[0][k] += w * m.0[0][k];
+            sum[1][k] += c * m.0[1][k] - s * m.0[2][k];
+            sum[2][k] += s * m.0[1][k] + c * m.0[2][k];
+            sum[3][k] += w * m.0[3][k];
+        }
+    }
 }
 
 /// How a weighted sum becomes an integral.

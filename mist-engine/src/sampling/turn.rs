@@ -13,7 +13,7 @@ const ZERO: f64 = 1e-10;
 
 /// The turn towards a centre.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Turn {
+pub(crate) struct Turn {
     center: DVec3,
 }
 
@@ -32,12 +32,12 @@ fn doubled(x: f64, y: f64) -> (f64, f64) {
 
 impl Turn {
     /// The turn towards the direction `center`.
-    pub(super) fn towards(center: Angles) -> Self {
+    pub(crate) fn towards(center: Angles) -> Self {
         Self { center: unit(center) }
     }
 
     /// cos 2β and sin 2β for the direction `v`.
-    pub(super) fn at(&self, v: DVec3) -> (f64, f64) {
+    pub(crate) fn at(&self, v: DVec3) -> (f64, f64) {
         let c = self.center;
         if (c.x - v.x).abs() < ZERO && (c.y - v.y).abs() < ZERO {
             return (1.0, 0.0);

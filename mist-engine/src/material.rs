@@ -1,0 +1,273 @@
+//! Materials outside of programs: a model with parameters and data files, ready to be asked.
+//!
+//! A [`Material`] is what a user writes as JSON, a [`Prepared`] material what is evaluated: by
+//! [`eval`] for single geometries, by [`table`] for the colour tables of renderers.
+
+pub mod eval;
+pub mod query;
+pub mod results;
+pub mod table;
+
+mod patch;
+mod text;
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use mist_format::suggestion::did_you_mean;
+use scattering::{Defect, Mode, Model, ParamError, models, spec::Met};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    Failure, FileError, Files, Job, Library, MemoryFiles,
+    parameters::{Parameters, SetError},
+    quirk::dialect,
+    region::RegionError,
+    replay::Replay,
+};
+
+/// A model with the parameters that differ from its defaults.
+///
+/// ```
+/// use mist_engine::material::Material;
+/// use scattering::Mode;
+///
+/// let json = r#"{"model": "Lambertian_BRDF_Model",
+///     "parameters": {"reflectance": "Table_Reflectance", "reflectance.table": 0.5}}"#;
+/// let material = Material::from_json(json).unwrap();
+/// let (model, _) = material.prepare(Mode::Sound, None).unwrap().model().unwrap();
+/// assert_eq!(model.common().lambda, 0.532);
+/// ```
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Name of the model's class.
+    pub model: String,
+    /// Dotted names with the texts that programs would give them, in the order in which they are
+    /// set.
+    #[serde(default, with = "text")]
+    pub parameters: Vec<(String, String)>,
+    /// Texts of data files by the names that parameters give them.
+    #[serde(default)]
+    pub files: BTreeMap<String, String>,
+}
+
+/// Why a material cannot be had, evaluated or made a table of.
+#[derive(Debug, thiserror::Error)]
+pub enum MaterialError {
+    /// The JSON text is not a material or a request.
+    #[error("not a valid request: {0}")]
+    Json(#[from] serde_json::Error),
+    /// No model has this name.
+    #[error("no model is called {name:?}")]
+    Model {
+        /// The name.
+        name: String,
+        /// What could have been meant.
+        help: Option<String>,
+    },
+    /// A parameter cannot be set.
+    #[error(transparent)]
+    Set(#[from] SetError),
+    /// The model cannot be built with these values.
+    #[error(transparent)]
+    Build(#[from] ParamError),
+    /// A part of the request is wrong.
+    #[error("{part}: {problem}")]
+    Request {
+        /// Which part.
+        part: String,
+        /// What is wrong, and what is expected.
+        problem: String,
+    },
+    /// A patch of the request cannot be integrated over.
+    #[error("patch {number}: {error}")]
+    Patch {
+        /// Which one, from 1, in the order of the request.
+        number: usize,
+        /// Why not.
+        error: RegionError,
+    },
+    /// The model has no finite value somewhere.
+    #[error("the model is not finite at {0}")]
+    NotFinite(String),
+    /// A limit was reached.
+    #[error("{0}")]
+    Limit(String),
+    /// It was stopped from outside.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl MaterialError {
+    /// A part of a request that is wrong.
+    pub(crate) fn request(part: impl Into<String>, problem: impl std::fmt::Display) -> Self {
+        Self::Request { part: part.into(), problem: problem.to_string() }
+    }
+
+    /// What to write instead, if something can be proposed.
+    pub fn help(&self) -> Option<&str> {
+        match self {
+            Self::Model { help, .. } => help.as_deref(),
+            Self::Set(error) => error.help.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// The parameter or the part of the request at fault, if it is one.
+    pub fn part(&self) -> Option<&str> {
+        match self {
+            Self::Model { .. } => Some("model"),
+            Self::Set(error) => Some(&error.path),
+            Self::Build(error) => Some(&error.parameter),
+            Self::Request { part, .. } => Some(part),
+            _ => None,
+        }
+    }
+}
+
+/// The files of a material, then those around it.
+struct Shelf {
+    own: MemoryFiles,
+    more: Option<Arc<dyn Files + Send + Sync>>,
+}
+
+impl Files for Shelf {
+    fn read(&self, name: &str) -> Result<Arc<str>, FileError> {
+        match (&self.more, self.own.read(name)) {
+            (Some(more), Err(_)) => more.read(name),
+            (_, own) => own,
+        }
+    }
+
+    fn names(&self) -> Vec<String> {
+        let more = self.more.iter().flat_map(|more| more.names());
+        self.own.names().into_iter().chain(more).collect()
+    }
+}
+
+impl Material {
+    /// Reads a material from JSON.
+    ///
+    /// # Errors
+    ///
+    /// For texts that are not JSON, and for unknown and missing keys.
+    pub fn from_json(json: &str) -> Result<Self, MaterialError> {
+        Ok(serde_json::from_str(json)?)
+    }
+
+    /// Sets the parameters; files that the material does not hold come from `more_files`.
+    ///
+    /// # Errors
+    ///
+    /// For unknown models and parameters, values of the wrong kind and missing files.
+    pub fn prepare(
+        &self,
+        mode: Mode,
+        more_files: Option<Arc<dyn Files + Send + Sync>>,
+    ) -> Result<Prepared, MaterialError> {
+        let own = self.files.iter().map(|(name, text)| (name.clone(), text.as_str().into()));
+        let shelf = Shelf { own: MemoryFiles(own.collect()), more: more_files };
+        let library = Library::new(Arc::new(shelf), dialect(mode));
+        let mut parameters = Parameters::new(class(&self.model)?);
+        for (path, value) in &self.parameters {
+            parameters.set(path, value, &library, mode, None)?;
+        }
+        Ok(Prepared { parameters, mode })
+    }
+}
+
+fn class(name: &str) -> Result<&'static scattering::Class, MaterialError> {
+    let found = models::find(name).map(|spec| &spec.class);
+    found.ok_or_else(|| MaterialError::Model {
+        name: name.to_owned(),
+        help: did_you_mean(name, models::all().map(|spec| spec.class.name)),
+    })
+}
+
+/// A material with its parameters set and its files read.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    parameters: Parameters,
+    mode: Mode,
+}
+
+impl Prepared {
+    /// The material of the first step of a program.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the program in this step.
+    pub fn of_step(job: &Job) -> Result<Self, Failure> {
+        let step = Replay::new(job).next_step().map_err(|fault| Failure::Program(vec![*fault]))?;
+        let empty = || Failure::Limit("the loops of the program have no step".into());
+        Ok(Self { parameters: step.ok_or_else(empty)?.parameters, mode: job.options.mode })
+    }
+
+    /// The same at another wavelength (µm): that of the model and of everything inside of it.
+    #[must_use]
+    pub fn at(&self, lambda: f64) -> Self {
+        let mut parameters = self.parameters.clone();
+        parameters.set_wavelength(lambda);
+        if self.mode == Mode::Compat {
+            parameters.forget_other_wavelengths();
+        }
+        Self { parameters, mode: self.mode }
+    }
+
+    /// Sound physics or NIST's numbers.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// The model, and the defects of NIST's library that a sound one steps around.
+    ///
+    /// # Errors
+    ///
+    /// For values that the model cannot take.
+    pub fn model(&self) -> Result<(Model, Vec<Defect>), MaterialError> {
+        let met = Met::default();
+        let model = models::build(&self.parameters.node(self.mode, &met))?;
+        let met = met.lock().expect("no build panics").iter().copied().collect();
+        Ok((model, met))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(json: &str) -> MaterialError {
+        Material::from_json(json).unwrap().prepare(Mode::Sound, None).unwrap_err()
+    }
+
+    #[test]
+    fn wrong_names_are_told_with_what_was_meant() {
+        let unknown = error(r#"{"model": "Lambertian_BRDF_Modl"}"#);
+        assert!(unknown.help().unwrap().contains("Lambertian_BRDF_Model"), "{unknown}");
+        let unknown =
+            error(r#"{"model": "Facet_BRDF_Model", "parameters": {"substrat": "(1.5,0)"}}"#);
+        assert_eq!(unknown.part(), Some("substrat"));
+        assert!(unknown.help().unwrap().contains("substrate"), "{unknown}");
+    }
+
+    #[test]
+    fn a_parent_in_an_object_is_set_before_its_parameters() {
+        let json = r#"{"model": "Lambertian_BRDF_Model",
+            "parameters": {"reflectance.table": 0.5, "reflectance": "Table_Reflectance"}}"#;
+        let material = Material::from_json(json).unwrap();
+        assert_eq!(material.parameters[1], ("reflectance.table".into(), "0.5".into()));
+        material.prepare(Mode::Sound, None).unwrap();
+    }
+
+    #[test]
+    fn files_of_the_material_hide_those_around_it() {
+        let json = r#"{"model": "Facet_BRDF_Model",
+            "parameters": [["substrate", "x.txt"], ["lambda", 0.5]],
+            "files": {"x.txt": "0.4 1.2 3\n0.6 1.2 3\n"}}"#;
+        let around = MemoryFiles(BTreeMap::from([("x.txt".to_owned(), Arc::from("0.4 9 9\n"))]));
+        let prepared =
+            Material::from_json(json).unwrap().prepare(Mode::Sound, Some(Arc::new(around)));
+        let (model, _) = prepared.unwrap().model().unwrap();
+        assert!((model.common().substrate.re - 1.2).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,141 @@
+//! Mueller matrices of a material for single geometries: JSON in, JSON out.
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use scattering::{Basis, Geometry, Mode, Mueller};
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::{Material, MaterialError, text};
+use crate::Files;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Request {
+    /// Name of the model's class.
+    pub model: String,
+    /// As in [`Material::parameters`].
+    #[serde(default, with = "text")]
+    pub parameters: Vec<(String, String)>,
+    /// `psps`, `xyxy` or `plane`.
+    #[serde(default = "psps")]
+    pub basis: String,
+    /// Where the model is evaluated.
+    pub geometries: Vec<Angles>,
+    /// As in [`Material::files`].
+    #[serde(default)]
+    pub files: BTreeMap<String, String>,
+}
+
+fn psps() -> String {
+    "psps".into()
+}
+
+/// One geometry, radians.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Angles {
+    /// Polar angle of incidence.
+    pub theta_i: f64,
+    /// Polar angle of scattering.
+    pub theta_s: f64,
+    /// Azimuth of scattering; 0 is the specular side.
+    pub phi_s: f64,
+    /// Rotation of the sample.
+    #[serde(default)]
+    pub rotation: f64,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Response {
+    /// One Mueller matrix (1/sr) per geometry, row by row.
+    pub mueller: Vec<[Number; 16]>,
+    /// Defects of NIST's library that a sound run stepped around: number and effect.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub defects: Vec<String>,
+}
+
+/// A number that JSON shows as it is if it is finite, else as "nan", "inf" or "-inf".
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number(pub f64);
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            x if x.is_finite() => serializer.serialize_f64(x),
+            x if x.is_nan() => serializer.serialize_str("nan"),
+            x if x > 0.0 => serializer.serialize_str("inf"),
+            _ => serializer.serialize_str("-inf"),
+        }
+    }
+}
+
+/// Answers a request in JSON.
+///
+/// # Errors
+///
+/// For texts that are not a request, and as [`Material::prepare`] and
+/// [`Prepared::model`](super::Prepared::model).
+pub fn eval(
+    request: &str,
+    mode: Mode,
+    more_files: Option<Arc<dyn Files + Send + Sync>>,
+) -> Result<Response, MaterialError> {
+    let request: Request = serde_json::from_str(request)?;
+    answer(request, mode, more_files)
+}
+
+/// Answers a request.
+///
+/// # Errors
+///
+/// As [`eval`].
+pub fn answer(
+    request: Request,
+    mode: Mode,
+    more_files: Option<Arc<dyn Files + Send + Sync>>,
+) -> Result<Response, MaterialError> {
+    let Request { model, parameters, basis, geometries, files } = request;
+    let basis = Basis::from_name(&basis).ok_or_else(|| {
+        MaterialError::request("basis", format!("{basis:?} is none of psps, xyxy and plane"))
+    })?;
+    let material = Material { model, parameters, files };
+    let (model, met) = material.prepare(mode, more_files)?.model()?;
+    let row = |m: Mueller| m.to_row_major().map(Number);
+    let at = |a: &Angles| {
+        let Angles { theta_i, theta_s, phi_s, rotation } = *a;
+        model.mueller(&Geometry { theta_i, theta_s, phi_s, rotation }, basis)
+    };
+    Ok(Response {
+        mueller: geometries.iter().map(|angles| row(at(angles))).collect(),
+        defects: met.iter().map(ToString::to_string).collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_perfect_diffuser_is_one_over_pi() {
+        let request = r#"{"model": "Lambertian_BRDF_Model",
+            "geometries": [{"theta_i": 0.3, "theta_s": 0.5, "phi_s": 1}]}"#;
+        let answer = eval(request, Mode::Sound, None).unwrap();
+        assert!((answer.mueller[0][0].0 * std::f64::consts::PI - 1.0).abs() < 1e-15);
+        assert!(serde_json::to_string(&answer).unwrap().starts_with(r#"{"mueller":[[0.318"#));
+    }
+
+    #[test]
+    fn numbers_that_json_does_not_have_are_texts() {
+        let numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.5].map(Number);
+        let json = serde_json::to_string(&numbers).unwrap();
+        assert_eq!(json, r#"["nan","inf","-inf",0.5]"#);
+    }
+
+    #[test]
+    fn a_wrong_basis_is_refused_by_name() {
+        let request = r#"{"model": "Lambertian_BRDF_Model", "basis": "spsp", "geometries": []}"#;
+        assert_eq!(eval(request, Mode::Sound, None).unwrap_err().part(), Some("basis"));
+    }
+}

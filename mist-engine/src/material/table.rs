@@ -1,0 +1,562 @@
+//! The colour table of a material: spectra over patches, coloured for a renderer.
+//!
+//! The model is built once per wavelength; directions are shared by all angles of incidence and
+//! evaluated in batches; the bits do not depend on the number of threads. Nodes at or below the
+//! horizon are filled from 89.9° and flagged.
+
+use std::f64::consts::FRAC_PI_2;
+
+use rayon::prelude::*;
+use scattering::{Basis, Incidence, Model, Mueller, Stokes};
+use spectra::{ColourPlan, ColourSettings, Grid, Quantity};
+
+use super::{
+    MaterialError, Prepared,
+    patch::{Cell, Probes, azimuth_cells, polar_cells},
+};
+use crate::{
+    Control, Limits,
+    colour::{
+        self, Albedo, Axis, ColourRow, ColourTable, Layout, Symmetry,
+        fold::{coloured, interpolation},
+    },
+    integrate::integrate,
+    region::{Apertures, Region},
+    sampling::{
+        self, Sampling,
+        adaptive::{self, Demand},
+    },
+};
+
+/// In the place of angles of 90° and more.
+const FILLED_FROM: f64 = 89.9;
+/// Relative error of a hemispherical reflectance.
+const ALBEDO: Demand = Demand { tolerance: 1e-6, budget: 400_000 };
+
+/// A table that is asked for.
+#[derive(Clone, Debug)]
+pub struct TableRequest {
+    /// Name of the material, for the header.
+    pub material: String,
+    /// Where.
+    pub what: What,
+    /// Wavelengths, nm, rising.
+    pub wavelengths: Vec<f64>,
+    /// How spectra become colours; the quantity is `brdf` or `factor`.
+    pub settings: ColourSettings,
+    /// Incident Stokes vector.
+    pub incident: [f64; 4],
+    /// Whether Q, U and V follow I.
+    pub stokes: bool,
+    /// The polarization basis.
+    pub basis: Basis,
+    /// How cones, annuli and polygons are sampled.
+    pub sampling: Sampling,
+    /// What it may cost.
+    pub limits: Limits,
+}
+
+/// The directions of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum What {
+    /// Every combination of nodes.
+    Grid(GridRequest),
+    /// These, in this order.
+    List(Vec<Place>),
+}
+
+/// The nodes of a grid, degrees, rising.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GridRequest {
+    /// Polar angles of incidence.
+    pub thetai: Vec<f64>,
+    /// Polar angles of scattering.
+    pub thetas: Vec<f64>,
+    /// Azimuths: all in 0…180, and the other half is the mirror image, or in −180…180.
+    pub phis: Vec<f64>,
+    /// What solid angle belongs to a node.
+    pub patch: GridPatch,
+}
+
+/// The solid angle of a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GridPatch {
+    /// One direction.
+    Point,
+    /// A cone with this half-angle, degrees.
+    Circle(f64),
+    /// The node's Voronoi cell.
+    Cell,
+    /// The average over all azimuths between the neighbours; `phis` has one node.
+    Ring,
+}
+
+/// A row of a list, degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// Polar angle of incidence.
+    pub thetai: f64,
+    /// Polar angle of scattering.
+    pub thetas: f64,
+    /// Azimuth of scattering.
+    pub phis: f64,
+    /// The solid angle around it.
+    pub patch: Patch,
+}
+
+/// A solid angle, degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Patch {
+    /// One direction.
+    Point,
+    /// A cone with this half-angle.
+    Circle(f64),
+    /// What lies between cones of these half-angles.
+    Ring(f64, f64),
+    /// A polygon of (thetas, phis), with straight edges in the projection.
+    Polygon(Vec<(f64, f64)>),
+}
+
+/// 0.5° squared and at least 100 directions, exact apertures.
+pub fn default_sampling() -> Sampling {
+    Sampling {
+        differential: 0.5_f64.to_radians().powi(2),
+        min_samples: 100.0,
+        mode: 2,
+        polygon_sides: 360,
+        apertures: Apertures::Exact,
+        seed: 1,
+    }
+}
+
+/// The colour table of `material`.
+///
+/// # Errors
+///
+/// For requests that cannot be served, values that the model cannot take, limits, a model that
+/// is not finite somewhere, and a wish to stop.
+pub fn table(
+    material: &Prepared,
+    request: &TableRequest,
+    control: &Control,
+) -> Result<ColourTable, MaterialError> {
+    let colours = Colours::new(&request.wavelengths, &request.settings)?;
+    let work = Work::new(material, request)?;
+    let components = if request.stokes || !request.settings.filters.is_empty() { 4 } else { 1 };
+    let mut rows: Vec<Option<ColourRow>> = (0..work.rows).map(|_| None).collect();
+    let (mut albedo, mut dark) = (Vec::new(), true);
+    for (number, group) in work.groups.iter().enumerate() {
+        let means = work.means(group, control)?;
+        let light = Stokes(request.incident);
+        let finished: Vec<ColourRow> = (0..group.rows.len())
+            .into_par_iter()
+            .map(|k| {
+                let mut spectra: [Vec<f64>; 4] = Default::default();
+                for (component, spectrum) in spectra.iter_mut().enumerate().take(components) {
+                    *spectrum = means.iter().map(|m| (m[k] * light).0[component]).collect();
+                }
+                group.row(k, &work, &colours.plan, spectra)
+            })
+            .collect();
+        for (row, at) in finished.into_iter().zip(&group.rows) {
+            if let Some(nm) = first_not_finite(&row, &request.wavelengths) {
+                let ColourRow { thetai, thetas, phis, .. } = row;
+                let place = format!("thetai {thetai}, thetas {thetas}, phis {phis}, {nm} nm");
+                return Err(MaterialError::NotFinite(place));
+            }
+            dark &= row.spectra[3].iter().all(|v| *v == 0.0);
+            rows[at.row] = Some(row);
+        }
+        if matches!(request.what, What::Grid(_)) {
+            albedo.push(work.albedo(group, &colours, control)?);
+        }
+        control.report((number + 1) as f64 / work.groups.len() as f64);
+    }
+    let stokes = match (request.stokes, dark) {
+        (false, _) => 1,
+        (true, true) => 3,
+        (true, false) => 4,
+    };
+    let head = Head {
+        material: request.material.clone(),
+        incident: request.incident,
+        frame: basis_name(request.basis),
+        layout: layout(&request.what),
+        patch: patch_name(&request.what),
+        leading: Vec::new(),
+        stokes,
+    };
+    Ok(colours.table(head, rows.into_iter().flatten().collect(), albedo))
+}
+
+/// Per row of a list and per wavelength the mean Mueller BRDF (1/sr) of the patch.
+///
+/// # Errors
+///
+/// As [`table`].
+pub fn mueller(
+    material: &Prepared,
+    request: &TableRequest,
+    control: &Control,
+) -> Result<Vec<Vec<Mueller>>, MaterialError> {
+    let work = Work::new(material, request)?;
+    let mut rows = vec![Vec::new(); work.rows];
+    for (number, group) in work.groups.iter().enumerate() {
+        let means = work.means(group, control)?;
+        for (k, at) in group.rows.iter().enumerate() {
+            rows[at.row] = means.iter().map(|m| m[k]).collect();
+        }
+        control.report((number + 1) as f64 / work.groups.len() as f64);
+    }
+    Ok(rows)
+}
+
+/// What colours the rows of one table.
+pub(super) struct Colours {
+    grid: Grid,
+    pub(super) plan: ColourPlan,
+    /// For reflectances, without filters.
+    reflectance: ColourPlan,
+}
+
+/// What the header of a table says besides its colours.
+pub(super) struct Head {
+    pub(super) material: String,
+    pub(super) incident: [f64; 4],
+    pub(super) frame: &'static str,
+    pub(super) layout: Layout,
+    pub(super) patch: colour::Patch,
+    pub(super) leading: Vec<String>,
+    pub(super) stokes: usize,
+}
+
+impl Colours {
+    pub(super) fn new(
+        wavelengths: &[f64],
+        settings: &ColourSettings,
+    ) -> Result<Self, MaterialError> {
+        let grid =
+            Grid::new(wavelengths).map_err(|error| MaterialError::request("wavelengths", error))?;
+        let plan = |settings| {
+            ColourPlan::new(&grid, settings)
+                .map_err(|error| MaterialError::request("adaptation", error))
+        };
+        let own = plan(settings.clone())?;
+        let reflectance = plan(ColourSettings {
+            quantity: Quantity::Reflectance,
+            filters: Vec::new(),
+            ..settings.clone()
+        })?;
+        Ok(Self { grid, plan: own, reflectance })
+    }
+
+    pub(super) fn table(
+        &self,
+        head: Head,
+        rows: Vec<ColourRow>,
+        albedo: Vec<Albedo>,
+    ) -> ColourTable {
+        let settings = self.plan.settings();
+        ColourTable {
+            material: head.material,
+            quantity: format!("{} {}", settings.quantity.name(), settings.quantity.unit()),
+            incident: head.incident,
+            frame: head.frame.to_owned(),
+            wavelengths: self.grid.nm().to_vec(),
+            interpolation: interpolation(&self.grid, settings.outside),
+            illuminant: settings.illuminant.name().to_owned(),
+            observer: settings.observer.name().to_owned(),
+            space: settings.space.name().to_owned(),
+            adaptation: settings.adaptation.name().to_owned(),
+            white: self.plan.white().map_or([0.0; 3], |white| [white.x, white.y, white.z]),
+            layout: head.layout,
+            patch: head.patch,
+            leading: head.leading,
+            stokes: head.stokes,
+            rows,
+            albedo,
+        }
+    }
+}
+
+/// A row of the table, and where its patch is.
+struct At {
+    row: usize,
+    /// thetai, thetas, phis as they were asked for, degrees.
+    angles: [f64; 3],
+    flags: u8,
+}
+
+/// Rows with one angle of incidence.
+struct Group {
+    thetai: f64,
+    rows: Vec<At>,
+    /// Which probes; the groups of a grid share theirs.
+    probes: usize,
+}
+
+/// All that is to be evaluated.
+struct Work<'a> {
+    request: &'a TableRequest,
+    models: Vec<Model>,
+    probes: Vec<Probes>,
+    groups: Vec<Group>,
+    rows: usize,
+}
+
+fn above(theta: f64) -> f64 {
+    if theta >= 90.0 { FILLED_FROM } else { theta }
+}
+
+fn flags(thetai: f64, thetas: f64) -> u8 {
+    if thetai >= 90.0 || thetas >= 90.0 { ColourRow::FILLED } else { 0 }
+}
+
+impl<'a> Work<'a> {
+    fn new(material: &Prepared, request: &'a TableRequest) -> Result<Self, MaterialError> {
+        check(request)?;
+        let (probes, groups, rows) = match &request.what {
+            What::Grid(grid) => grid_work(grid, request)?,
+            What::List(list) => list_work(list, request)?,
+        };
+        let each = |group: &Group| probes[group.probes].directions() as f64;
+        let cost = groups.iter().map(each).sum::<f64>() * request.wavelengths.len() as f64;
+        if cost > request.limits.evaluations {
+            let limit = request.limits.evaluations;
+            let message = format!("the table needs {cost:.3e} evaluations, more than {limit:e}");
+            return Err(MaterialError::Limit(message));
+        }
+        let model = |nm: &f64| Ok(material.at(nm / 1000.0).model()?.0);
+        let models: Result<_, MaterialError> = request.wavelengths.par_iter().map(model).collect();
+        Ok(Self { request, models: models?, probes, groups, rows })
+    }
+
+    /// Per wavelength the means of the rows of `group`.
+    fn means(&self, group: &Group, control: &Control) -> Result<Vec<Vec<Mueller>>, MaterialError> {
+        let probes = &self.probes[group.probes];
+        let incidence = Incidence::new(group.thetai.to_radians(), 0.0);
+        let pieces = probes.pieces();
+        let work: Vec<_> =
+            self.models.iter().flat_map(|m| pieces.iter().map(move |piece| (m, *piece))).collect();
+        let done: Option<Vec<Vec<Mueller>>> = work
+            .into_par_iter()
+            .map(|(model, piece)| {
+                (!control.is_cancelled())
+                    .then(|| probes.means(model, &incidence, self.request.basis, piece))
+            })
+            .collect();
+        let done = done.ok_or(MaterialError::Cancelled)?;
+        Ok(done.chunks(pieces.len().max(1)).map(<[_]>::concat).collect())
+    }
+
+    fn albedo(
+        &self,
+        group: &Group,
+        colours: &Colours,
+        control: &Control,
+    ) -> Result<Albedo, MaterialError> {
+        let incidence = Incidence::new(group.thetai.to_radians(), 0.0);
+        let light = Stokes(self.request.incident);
+        let stop = || control.is_cancelled();
+        let one = |model: &Model| {
+            let basis = self.request.basis;
+            let hemi = Region::Hemi;
+            let adaptive = adaptive::integrate(model, &incidence, basis, &hemi, &ALBEDO, &stop);
+            let matrix = match adaptive {
+                Ok(estimate) => estimate.matrix,
+                Err(_) => {
+                    let layout = sampling::Layout::new(&hemi, &self.request.sampling)
+                        .map_err(|error| MaterialError::Patch { number: 1, error })?;
+                    integrate(model, &incidence, basis, &layout, &stop)
+                        .ok_or(MaterialError::Cancelled)?
+                }
+            };
+            Ok((matrix * light).0[0])
+        };
+        let spectrum: Result<Vec<f64>, MaterialError> = self.models.par_iter().map(one).collect();
+        let thetai = group.rows[0].angles[0];
+        let xyz = colours.reflectance.unpolarized(&spectrum?);
+        Ok(Albedo { thetai, rgb: colours.reflectance.rgb(xyz), intensity: xyz.y })
+    }
+}
+
+impl Group {
+    fn row(
+        &self,
+        k: usize,
+        work: &Work<'_>,
+        plan: &ColourPlan,
+        spectra: [Vec<f64>; 4],
+    ) -> ColourRow {
+        let At { angles: [thetai, thetas, phis], flags, .. } = self.rows[k];
+        let omega = work.probes[self.probes].omegas[k];
+        coloured(plan, Vec::new(), [thetai, thetas, phis, omega], spectra, flags)
+    }
+}
+
+fn check(request: &TableRequest) -> Result<(), MaterialError> {
+    if !matches!(request.settings.quantity, Quantity::Brdf | Quantity::Factor) {
+        let problem = "a table of a material is one of brdf or factor";
+        return Err(MaterialError::request("quantity", problem));
+    }
+    let bad = request.wavelengths.iter().find(|nm| !(nm.is_finite() && **nm > 0.0));
+    if let Some(nm) = bad {
+        return Err(MaterialError::request("wavelengths", format!("{nm} nm is no wavelength")));
+    }
+    let What::Grid(grid) = &request.what else { return Ok(()) };
+    for (name, nodes, low, high) in [
+        ("thetai", &grid.thetai, 0.0, 180.0),
+        ("thetas", &grid.thetas, 0.0, 180.0),
+        ("phis", &grid.phis, -180.0, 180.0),
+    ] {
+        let rising = nodes.windows(2).all(|pair| pair[0] < pair[1]);
+        let inside = nodes.iter().all(|x| (low..=high).contains(x));
+        if nodes.is_empty() || !rising || !inside {
+            let problem = format!("expected rising angles from {low} to {high} degrees");
+            return Err(MaterialError::request(name, problem));
+        }
+    }
+    if grid.patch == GridPatch::Ring && grid.phis.len() > 1 {
+        let problem = "a ring is an average over the azimuth: expected one node";
+        return Err(MaterialError::request("phis", problem));
+    }
+    let nodes = grid.thetai.len() as f64 * grid.thetas.len() as f64 * grid.phis.len() as f64;
+    if nodes > request.limits.steps as f64 {
+        return Err(MaterialError::Limit(format!("the grid has {nodes:e} nodes")));
+    }
+    Ok(())
+}
+
+fn symmetry(phis: &[f64]) -> Symmetry {
+    if phis.iter().all(|phi| *phi >= 0.0) { Symmetry::Mirror } else { Symmetry::None }
+}
+
+type Parts = (Vec<Probes>, Vec<Group>, usize);
+
+fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, MaterialError> {
+    let mut probes = Probes::default();
+    let mut nodes = Vec::new();
+    let mirror = symmetry(&grid.phis) == Symmetry::Mirror;
+    let rad = |(a, b): (f64, f64)| (a.to_radians(), b.to_radians());
+    let azimuths = azimuth_cells(&grid.phis, mirror);
+    for (thetas, theta) in grid.thetas.iter().zip(polar_cells(&grid.thetas)) {
+        for (phis, phi) in grid.phis.iter().zip(&azimuths) {
+            let center = rad((above(*thetas), *phis));
+            let (empty, theta) = (theta.0 >= theta.1, rad(theta));
+            let error = |error| MaterialError::Patch { number: nodes.len() + 1, error };
+            let patch = match grid.patch {
+                GridPatch::Circle(alpha) => Patch::Circle(alpha),
+                _ => Patch::Point,
+            };
+            match grid.patch {
+                GridPatch::Cell if !empty => {
+                    probes.add_cell(&Cell { theta, phi: rad(*phi), center });
+                }
+                GridPatch::Ring if !empty => probes.add_ring(theta),
+                _ => admit(&probes, &patch, request)
+                    .and_then(|()| probes.add(center, &patch, &request.sampling).map_err(error))?,
+            }
+            nodes.push((*thetas, *phis));
+        }
+    }
+    let group = |(number, thetai): (usize, &f64)| Group {
+        thetai: above(*thetai),
+        rows: (nodes.iter().enumerate())
+            .map(|(k, &(thetas, phis))| At {
+                row: number * nodes.len() + k,
+                angles: [*thetai, thetas, phis],
+                flags: flags(*thetai, thetas),
+            })
+            .collect(),
+        probes: 0,
+    };
+    let groups: Vec<Group> = grid.thetai.iter().enumerate().map(group).collect();
+    let rows = grid.thetai.len() * probes.len();
+    Ok((vec![probes], groups, rows))
+}
+
+fn list_work(list: &[Place], request: &TableRequest) -> Result<Parts, MaterialError> {
+    let (mut probes, mut groups): (Vec<Probes>, Vec<Group>) = Default::default();
+    for (row, place) in list.iter().enumerate() {
+        let Place { thetai, thetas, phis, patch } = place;
+        if !(0.0..=180.0).contains(thetai) || !thetas.is_finite() || !phis.is_finite() {
+            let part = format!("patch {}", row + 1);
+            return Err(MaterialError::request(part, "expected finite angles in degrees"));
+        }
+        let known = groups.iter().position(|group| group.thetai == above(*thetai));
+        let at = known.unwrap_or_else(|| {
+            probes.push(Probes::default());
+            groups.push(Group { thetai: above(*thetai), rows: Vec::new(), probes: groups.len() });
+            groups.len() - 1
+        });
+        admit(&probes[at], patch, request)?;
+        let center = (above(*thetas).to_radians(), phis.to_radians());
+        probes[at]
+            .add(center, patch, &request.sampling)
+            .map_err(|error| MaterialError::Patch { number: row + 1, error })?;
+        let (angles, flags) = ([*thetai, *thetas, *phis], flags(*thetai, *thetas));
+        groups[at].rows.push(At { row, angles, flags });
+    }
+    Ok((probes, groups, list.len()))
+}
+
+/// Refuses a patch whose directions would not fit beside those that are there.
+fn admit(probes: &Probes, patch: &Patch, request: &TableRequest) -> Result<(), MaterialError> {
+    let (Patch::Circle(alpha) | Patch::Ring(_, alpha)) = patch else { return Ok(()) };
+    let region = Region::Circle {
+        center: (0.0, 0.0),
+        alpha: alpha.to_radians().clamp(-FRAC_PI_2, FRAC_PI_2),
+    };
+    let more = sampling::Layout::estimate(&region, &request.sampling);
+    if probes.directions() as f64 + more > request.limits.directions {
+        let limit = request.limits.directions;
+        return Err(MaterialError::Limit(format!(
+            "the patches have more than {limit:e} directions"
+        )));
+    }
+    Ok(())
+}
+
+fn first_not_finite(row: &ColourRow, wavelengths: &[f64]) -> Option<f64> {
+    let at = row.spectra.iter().find_map(|s| s.iter().position(|x| !x.is_finite()))?;
+    wavelengths.get(at).copied()
+}
+
+fn layout(what: &What) -> Layout {
+    let What::Grid(grid) = what else { return Layout::List };
+    let axes = [("thetai", &grid.thetai), ("thetas", &grid.thetas), ("phis", &grid.phis)];
+    let axis = |(name, nodes): (&str, &Vec<f64>)| Axis { name: name.into(), nodes: nodes.clone() };
+    Layout::Grid { axes: axes.map(axis).into(), symmetry: symmetry(&grid.phis) }
+}
+
+fn patch_name(what: &What) -> colour::Patch {
+    match what {
+        What::Grid(grid) => match grid.patch {
+            GridPatch::Point => colour::Patch::Point,
+            GridPatch::Circle(alpha) => colour::Patch::Circle(alpha),
+            GridPatch::Cell => colour::Patch::Cell,
+            GridPatch::Ring => colour::Patch::Ring,
+        },
+        What::List(list) => match list.first().map(|place| &place.patch) {
+            Some(first) if list.iter().all(|place| place.patch == *first) => match first {
+                Patch::Circle(alpha) => colour::Patch::Circle(*alpha),
+                Patch::Ring(inner, outer) => colour::Patch::Other(format!("ring {inner} {outer}")),
+                Patch::Polygon(_) => colour::Patch::Other("polygon".into()),
+                Patch::Point => colour::Patch::Point,
+            },
+            Some(_) => colour::Patch::Other("mixed".into()),
+            None => colour::Patch::Point,
+        },
+    }
+}
+
+fn basis_name(basis: Basis) -> &'static str {
+    match basis {
+        Basis::Psps => "psps",
+        Basis::Xyxy => "xyxy",
+        Basis::Plane => "plane",
+    }
+}
+
+#[cfg(test)]
+mod tests;
