@@ -123,6 +123,7 @@ pub const ABSTRACT: &[(&str, &str)] = &[
     ("Instrument_BRDF_Model", "BRDF_Model"),
     ("Angle_Distribution_Function", "Slope_Distribution_Function"),
     ("SphericalScatterer", "Free_Space_Scatterer"),
+    ("Gridded_CrossGrating", "CrossGrating"),
 ];
 
 /// What a parameter holds.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use scattering::{Basis, Geometry, Model, Mueller, Value, models};
+use scattering::{Basis, Family, Geometry, Model, Mueller, Value, models, spec};
 
 use super::parts::{ALPHA, Lines, efficiency, index, integer, member, model, node, number};
 
@@ -298,6 +298,15 @@ fn upper_grating_alone_may_be_moved_sideways() {
     };
     let (a, b) = (specular(&post(0.0), 0.6, 0.2), specular(&post(0.13), 0.6, 0.2));
     assert_same(a, b, ROUNDING, "moved grating");
+}
+
+#[test]
+fn every_grating_may_stand_where_a_grating_is_wanted() {
+    for family in [Family::Grating, Family::CrossGrating] {
+        for class in family.classes() {
+            assert!(spec::is_below(class.name, family.base()), "{}", class.name);
+        }
+    }
 }
 
 #[test]
