@@ -37,6 +37,7 @@ pub mod slope;
 pub mod spec;
 pub mod special;
 pub mod stack;
+pub mod tmatrix;
 
 pub use defect::{Defect, Mode};
 pub use geometry::{Direction, Geometry, Incidence, Side};

@@ -2,4 +2,6 @@
 
 pub mod bessel;
 pub mod gauss;
+pub mod harmonics;
+pub mod laguerre;
 pub mod riccati;

@@ -3,6 +3,7 @@
 use super::Brdf;
 use crate::spec::{Param, Spec};
 
+pub mod bobbert_vlieger;
 pub mod double_interaction;
 pub mod one_layer;
 mod paths;
@@ -11,6 +12,7 @@ pub mod rayleigh_defect;
 pub mod rayleigh_stack;
 mod small_sphere;
 pub mod subsurface_particle;
+mod supported;
 
 /// The models of this group, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Brdf>] = &[
@@ -20,6 +22,8 @@ pub const ALL: &[&Spec<dyn Brdf>] = &[
     &subsurface_particle::SPEC,
     &double_interaction::SPEC,
     &polydisperse_sphere::SPEC,
+    &bobbert_vlieger::SPEC,
+    &bobbert_vlieger::SUBSURFACE,
 ];
 
 /// The parameter of models that multiply the cross-section of a particle by their number.

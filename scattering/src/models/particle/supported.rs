@@ -1,0 +1,357 @@
+//! A particle on the smooth face of a substrate, exact but for the truncation of its multipoles.
+//!
+//! Regular waves v, those of the incident light and of what the face makes of it, meet the
+//! particle and its [image]; the multipoles w that they excite are summed in the direction of
+//! scattering, again with what the face makes of them ([`waves`](crate::tmatrix::waves)).
+//! With q the height of the origin times k and κ = n sin θ, c = √(1 − κ²) of light in the
+//! substrate,
+//!
+//! | light | direct | mirrored |
+//! |---|---|---|
+//! | from or to outside | 1 | r12 e^{2iq cos θ} |
+//! | out of the substrate | 0 | t21 n^{−1/2} e^{iq(c − n cos θ)} |
+//! | into the substrate | t21 n^{1/2} e^{iq(c − n cos θ)} | 0 |
+//!
+//! where the wave in the substrate fades towards the particle beyond the critical angle.
+//! F = N M(J)/(cos θ_i cos θ_s), J in µm. A particle in the substrate is one outside when all
+//! indices are divided by n, λ too, and the films and the sides change places.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use self::image::{Method, Response};
+use super::small_sphere::not_negative;
+use crate::{
+    Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
+    models::{Brdf, Common},
+    optics::film::{Films, Pair},
+    spec::Param,
+    special::harmonics::Harmonics,
+    stack::Stack,
+    tmatrix::{
+        MOST, TMatrix,
+        waves::{self, Beam, Multipole, Outgoing},
+    },
+};
+
+mod image;
+
+/// Whether the library moves angles this near to the normal to it.
+const NORMAL: f64 = 1e-6;
+
+/// The parameters of how the interaction with the face is computed.
+pub(super) const INTERACTION: [Param; 3] = [
+    Param::integer(
+        "order",
+        "-1",
+        "Interaction with the face: -1 exact, 0 none, n the first n terms of a series",
+    ),
+    Param::integer(
+        "Norm_Inc_Approx",
+        "0",
+        "Reflection of the particle's own light: 0 exact, 1 as at normal incidence",
+    ),
+    Param::integer(
+        "improve",
+        "3",
+        "Steps of iterative improvement in NIST's library; no effect, the solution is exact",
+    ),
+];
+
+/// The smooth face and where the particle is, as one outside in vacuum.
+pub(super) struct Ground {
+    common: Common,
+    /// The side seen from the particle.
+    side: Side,
+    films: Films,
+    /// Index of the substrate over that of the particle's medium, for light in it.
+    n: f64,
+    /// Wave number around the particle, 1/µm.
+    pub k: f64,
+    /// Index around the particle.
+    pub medium: f64,
+    delta: f64,
+    density: f64,
+    normal_only: bool,
+    method: Method,
+    nudges: bool,
+    flips: bool,
+}
+
+impl Ground {
+    /// What every model has.
+    pub(super) fn common(&self) -> &Common {
+        &self.common
+    }
+
+    /// Reads what all such models share; `buried` puts the particle into the substrate.
+    pub(super) fn read(node: &Node, buried: bool) -> Result<Self, ParamError> {
+        let common = Common::read(node)?;
+        let substrate = common.substrate;
+        if !(substrate.re > 0.0 && substrate.is_finite()) {
+            return Err(ParamError::new("substrate", format!("{substrate} is not an index")));
+        }
+        let mut layers = node.member::<Stack>("stack")?.at(common.lambda);
+        let (medium, side) =
+            if buried { (substrate.re, turned(common.side)) } else { (1.0, common.side) };
+        let below = if buried { medium.recip().into() } else { substrate };
+        if buried {
+            layers.reverse();
+            layers.iter_mut().for_each(|layer| layer.0 /= medium);
+        }
+        let lambda = common.lambda / medium;
+        let method = match node.integer("order") {
+            i32::MIN..0 => Method::Exact,
+            0 => Method::Alone,
+            terms if terms <= 1000 => Method::Series(terms as usize),
+            terms => return Err(ParamError::new("order", format!("{terms} is more than 1000"))),
+        };
+        Ok(Self {
+            side,
+            films: Films::new(&layers, Complex64::ONE, below, lambda),
+            n: below.re,
+            k: TAU / lambda,
+            medium,
+            delta: not_negative(node, "delta")?,
+            density: not_negative(node, "density")?,
+            normal_only: node.integer("Norm_Inc_Approx") != 0,
+            method,
+            nudges: node.reproduces(Defect::Nudge),
+            flips: buried,
+            common,
+        })
+    }
+}
+
+/// The side of a particle whose substrate is on the other side.
+fn turned(side: Side) -> Side {
+    match side {
+        Side::DownUp => Side::UpDown,
+        Side::UpDown => Side::DownUp,
+        Side::DownDown => Side::UpUp,
+        Side::UpUp => Side::DownDown,
+    }
+}
+
+/// The largest l that the parameter `lmax` asks for where the size needs `needed`.
+pub(super) fn l_max(node: &Node, needed: usize) -> Result<usize, ParamError> {
+    let asked = i64::from(node.integer("lmax"));
+    let l = if asked > 0 { asked } else { needed as i64 - asked };
+    match usize::try_from(l) {
+        Ok(l) if l <= MOST => Ok(l),
+        _ => Err(ParamError::new(
+            "lmax",
+            format!("{asked} asks for l up to {l}, more than {MOST}; the size needs {needed}"),
+        )),
+    }
+}
+
+/// A particle on or in a substrate.
+pub(super) struct Supported {
+    ground: Ground,
+    response: Response,
+    /// k times the height of the origin over the face.
+    height: f64,
+    incoming: Harmonics,
+    outgoing: Harmonics,
+    mispairs: bool,
+}
+
+impl Supported {
+    /// The particle with this T-matrix, its origin at `height` µm over the face if it touches it;
+    /// light is summed over l up to `l_out`.
+    pub(super) fn new(
+        ground: Ground,
+        particle: &TMatrix,
+        height: f64,
+        l_out: usize,
+    ) -> Result<Self, ParamError> {
+        let height = ground.k * (height + ground.delta);
+        let l_out = l_out.min(particle.l_max);
+        let m_out = particle.m_max().min(l_out);
+        let Ground { films, normal_only, method, .. } = &ground;
+        let response = Response::new(particle, films, height, *normal_only, *method, l_out)
+            .ok_or_else(|| {
+                let problem = "too many multipoles for this size and shape: they overflow";
+                ParamError::new("lmax", problem)
+            })?;
+        Ok(Self {
+            response,
+            height,
+            incoming: Harmonics::new(particle.l_max, particle.m_max()),
+            outgoing: Harmonics::new(l_out, m_out),
+            mispairs: false,
+            ground,
+        })
+    }
+
+    /// The same with the harmonics of NIST's library
+    /// ([`Defect::AxisymmetricIndex`](crate::Defect::AxisymmetricIndex)).
+    pub(super) fn mispairing(self) -> Self {
+        Self { mispairs: true, ..self }
+    }
+
+    fn excited(&self, incidence: &Incidence) -> Outgoing {
+        let below = self.ground.side.from_below();
+        let (sin, cos) = self.ground.angle(incidence.theta, incidence.sin, incidence.cos);
+        let beam = if below {
+            let (cos, t) = self.ground.through(sin, cos, self.height);
+            let factor = self.ground.n.sqrt().recip();
+            Beam {
+                cos,
+                sin: self.ground.n * sin,
+                direct: Pair::default(),
+                mirrored: times(t, factor.into()),
+            }
+        } else {
+            let mirrored = self.ground.reflected(sin, cos, self.height);
+            Beam { mirrored, ..Beam::free(cos, sin) }
+        };
+        let w = self.response.apply(&waves::regular(&self.incoming, &beam));
+        if self.mispairs {
+            mispaired(&w, &self.outgoing)
+        } else {
+            Outgoing::symmetric(w.into_iter())
+        }
+    }
+
+    fn amplitude(&self, excited: &Outgoing, incidence: &Incidence, direction: &Direction) -> Jones {
+        let ground = &self.ground;
+        let (sin, cos) = ground.angle(direction.theta, direction.sin, direction.cos);
+        let beam = if ground.side.to_below() {
+            let (inside, t) = ground.through(sin, cos, self.height);
+            let direct = times(t, ground.n.sqrt().into());
+            Beam { cos: inside, sin: ground.n * sin, direct, mirrored: Pair::default() }
+        } else {
+            let mirrored = ground.reflected(sin, cos, self.height);
+            Beam { mirrored, ..Beam::free(-cos, sin) }
+        };
+        // A negative polar angle stands for the azimuth on the other side.
+        let side = if (direction.theta < 0.0) != (incidence.theta < 0.0) { -1.0 } else { 1.0 };
+        let azimuth = match sin {
+            // psps has a fixed s along the normal.
+            0.0 => (1.0, 0.0),
+            _ => (side * direction.cos_phi, side * direction.sin_phi),
+        };
+        let area = ground.density / (incidence.cos * direction.cos).abs();
+        let j = excited.amplitude(&self.outgoing, &beam, azimuth).scaled(area.sqrt() / ground.k);
+        if ground.flips { j.flipped() } else { j }
+    }
+}
+
+impl Ground {
+    /// Sine and cosine of a polar angle, which the library keeps away from 0.
+    fn angle(&self, theta: f64, sin: f64, cos: f64) -> (f64, f64) {
+        if self.nudges && theta.abs() < NORMAL { NORMAL.sin_cos() } else { (sin.abs(), cos) }
+    }
+
+    fn reflected(&self, sin: f64, cos: f64, height: f64) -> Pair {
+        let r = self.films.r12(sin.into());
+        times(r, Complex64::cis(2.0 * height * cos))
+    }
+
+    /// Cosine outside of a beam in the substrate, and its t21 with the phase of its height.
+    fn through(&self, sin: f64, cos: f64, height: f64) -> (Complex64, Pair) {
+        let kappa = self.n * sin;
+        let squared = 1.0 - kappa * kappa;
+        let outside = if squared < 0.0 {
+            Complex64::new(0.0, (-squared).sqrt())
+        } else {
+            squared.sqrt().into()
+        };
+        let phase = (Complex64::I * height * (outside - self.n * cos)).exp();
+        (outside, times(self.films.t21(kappa.into()), phase))
+    }
+}
+
+fn times(pair: Pair, factor: Complex64) -> Pair {
+    Pair { s: pair.s * factor, p: pair.p * factor }
+}
+
+/// The multipoles as the library pairs them: the list of those with l ≤ L and |m| ≤ min(m_max, l)
+/// takes its values one by one from the start of the list of all |m| ≤ l.
+fn mispaired(w: &[(usize, usize, Multipole)], harmonics: &Harmonics) -> Outgoing {
+    let (l_max, m_max) = (harmonics.l_max(), harmonics.m_max());
+    let place = |l: usize, m: isize| 2 * (l * l + l - 1).wrapping_add_signed(m);
+    let mut full = vec![[Complex64::ZERO; 2]; 2 * l_max * (l_max + 2)];
+    // The library's P̃_l^{−m} is (−1)^m P̃_l^m.
+    let sign = |m: usize| if m.is_multiple_of(2) { 1.0 } else { -1.0 };
+    for (m, l, w) in w {
+        let (m, l) = (*m, *l);
+        let at = place(l, -(m as isize));
+        full[at] = [w.p[0] * sign(m), w.s[0] * -sign(m)];
+        full[at + 1] = [w.p[1] * -sign(m), w.s[1] * sign(m)];
+        let at = place(l, m as isize);
+        full[at] = [w.p[0], w.s[0]];
+        full[at + 1] = [w.p[1], w.s[1]];
+    }
+    let start = |l: usize| -> usize { (1..l).map(|l| 2 * (2 * l.min(m_max) + 1)).sum() };
+    let mut paired = Vec::new();
+    for m in 0..=m_max {
+        for l in Harmonics::l_min(m)..=l_max {
+            let middle = start(l) + 2 * l.min(m_max);
+            let read = |at: usize, sign: f64| {
+                let ([pe, se], [ph, sh]) = (full[at], full[at + 1]);
+                Multipole { p: [pe * sign, ph * sign], s: [se * sign, sh * sign] }
+            };
+            let minus = if m == 0 { Multipole::default() } else { read(middle - 2 * m, sign(m)) };
+            paired.push((l, read(middle + 2 * m, 1.0), minus));
+        }
+    }
+    Outgoing::general(&paired)
+}
+
+impl Brdf for Supported {
+    fn common(&self) -> &Common {
+        &self.ground.common
+    }
+
+    fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
+        self.amplitude(&self.excited(incidence), incidence, direction).mueller()
+    }
+
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        let excited = self.excited(incidence);
+        for (m, direction) in out.iter_mut().zip(directions) {
+            *m = self.amplitude(&excited, incidence, direction).mueller();
+        }
+    }
+
+    fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
+        Some(self.amplitude(&self.excited(incidence), incidence, direction))
+    }
+
+    fn is_coherent(&self) -> bool {
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::film::Films;
+
+    #[test]
+    fn with_all_orders_the_librarys_pairing_is_the_right_one() {
+        let harmonics = Harmonics::new(4, 4);
+        let z = |at: usize, j: usize| Complex64::new((at + j) as f64, (at * j) as f64 - 3.0);
+        let mut w = Vec::new();
+        harmonics.visit(0.5, 0.5, |m, l, _, _| {
+            let at = w.len();
+            let (p, s) = match m {
+                0 => ([z(at, 1), Complex64::ZERO], [Complex64::ZERO, z(at, 4)]),
+                _ => ([z(at, 1), z(at, 2)], [z(at, 3), z(at, 4)]),
+            };
+            w.push((m, l, Multipole { p, s }));
+        });
+        let films = Films::new(&[], Complex64::ONE, Complex64::new(1.5, 0.1), 0.6);
+        let beam = Beam { mirrored: films.r12(0.6.into()), ..Beam::free(-0.8, 0.6) };
+        let azimuth = (0.6, 0.8);
+        let a = mispaired(&w, &harmonics).amplitude(&harmonics, &beam, azimuth);
+        let b = Outgoing::symmetric(w.into_iter()).amplitude(&harmonics, &beam, azimuth);
+        let difference = (a.ss - b.ss).norm() + (a.ps - b.ps).norm();
+        let other = (a.pp - b.pp).norm() + (a.sp - b.sp).norm();
+        assert!(difference + other < 1e-11 * a.ss.norm(), "{a:?} {b:?}");
+    }
+}
