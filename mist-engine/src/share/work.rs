@@ -239,7 +239,10 @@ impl<'a> Shared<'a> {
     fn region(&self, number: usize, error: &RegionError) -> Fault {
         let plan = &self.job.integrals[number];
         let message = format!("{}: {error}", plan.name);
-        Box::new(Diagnostic::error("integral/region", plan.name.span(), message))
+        Box::new(
+            Diagnostic::error("integral/region", plan.name.span(), message)
+                .help("see the shapes in docs/language.md; angles are in radians"),
+        )
     }
 
     /// The defects met since the last call.

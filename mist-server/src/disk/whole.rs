@@ -92,12 +92,19 @@ mod tests {
     #[test]
     fn a_file_has_its_name_only_when_it_is_finished() {
         let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("new/a.dat");
+        let path = dir.path().join("a.dat");
         let mut file = WholeFile::create(&path).unwrap();
         file.write_all(b"text").unwrap();
         assert!(!path.exists());
         file.finish().unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "text");
+    }
+
+    #[test]
+    fn a_missing_folder_is_told() {
+        let dir = tempfile::tempdir().unwrap();
+        let error = WholeFile::create(&dir.path().join("new/a.dat")).unwrap_err();
+        assert!(error.to_string().contains("make it first"), "{error}");
     }
 
     #[test]
