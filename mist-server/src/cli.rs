@@ -5,11 +5,14 @@
 mod check;
 mod color;
 mod convert;
+mod eval;
 mod fmt;
 mod models;
 mod run;
+mod serve;
 mod source;
 mod stop;
+mod table;
 
 use std::{io::Write, process::ExitCode};
 
@@ -40,9 +43,12 @@ enum Command {
     Run(run::Args),
     Check(check::Args),
     Models(models::Args),
+    Table(Box<table::Args>),
+    Eval(eval::Args),
     Color(color::Args),
     Fmt(fmt::Args),
     Convert(convert::Args),
+    Serve(serve::Args),
 }
 
 /// Runs the command that the arguments of the process name.
@@ -54,6 +60,9 @@ pub fn main() -> ExitCode {
         Command::Color(args) => color::color(&args),
         Command::Fmt(args) => fmt::fmt(&args),
         Command::Convert(args) => convert::convert(&args),
+        Command::Table(args) => table::table(&args),
+        Command::Eval(args) => eval::eval(&args),
+        Command::Serve(args) => serve::serve(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

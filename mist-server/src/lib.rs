@@ -1,8 +1,7 @@
 //! The command line `mist` and the HTTP service behind `mist serve`.
 //!
 //! This is the only crate that knows terminals, sockets and the file system, and the only one
-
-//!
+//! that starts threads.
 
 mod cli;
 mod compute;
@@ -11,5 +10,8 @@ mod interrupt;
 mod products;
 mod progress;
 mod report;
+mod wanted;
+
+pub mod http;
 
 pub use cli::main;

@@ -19,6 +19,11 @@ pub(crate) enum MessageFormat {
     Json,
 }
 
+/// A message with what to try, on a line of its own.
+pub(crate) fn with_help(message: &str, help: Option<&str>) -> String {
+    help.map_or_else(|| message.to_owned(), |help| format!("{message}\n  help: {help}"))
+}
+
 /// Says a line on standard error.
 pub(crate) fn say(line: &str) {
     // There is no one to tell that standard error is closed.

@@ -1,0 +1,68 @@
+//! A colour table as command lines and URLs ask for it: names and ranges as texts.
+
+use mist_engine::{
+    Files, Limits,
+    material::{
+        MaterialError,
+        query::{self, ColourNames},
+        table::{GridRequest, TableRequest, What, default_sampling},
+    },
+};
+
+/// The texts of a request; what is missing has a default.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Wanted {
+    /// `thetai=0:2:90,thetas=0:2:90,phis=0:2:180`.
+    pub(crate) grid: Option<String>,
+    /// Rows `thetai thetas phis circle 2`, one per line.
+    pub(crate) patches: Option<String>,
+    /// The solid angle of a grid's nodes; `point`.
+    pub(crate) patch: Option<String>,
+    /// Wavelengths, nm; `360:5:830`.
+    pub(crate) lambda: Option<String>,
+    /// Incident Stokes vector; `1,0,0,0`.
+    pub(crate) incident: Option<String>,
+    /// The basis of the exit light; `psps`.
+    pub(crate) basis: Option<String>,
+    /// Whether Q, U and V follow I.
+    pub(crate) stokes: bool,
+    /// Light, observer, space, adaptation, quantity, filters.
+    pub(crate) colours: ColourNames,
+}
+
+impl Wanted {
+    /// The request for a table of the material called `name`.
+    ///
+    /// # Errors
+    ///
+    /// Names the part that cannot be read and what was expected.
+    pub(crate) fn request(
+        &self,
+        name: &str,
+        files: Option<&dyn Files>,
+    ) -> Result<TableRequest, MaterialError> {
+        let text = |given: &Option<String>, default: &str| {
+            given.clone().unwrap_or_else(|| default.to_owned())
+        };
+        Ok(TableRequest {
+            material: name.to_owned(),
+            what: self.what()?,
+            wavelengths: query::nodes("lambda", &text(&self.lambda, "360:5:830"))?,
+            settings: self.colours.settings(files)?,
+            incident: query::stokes(&text(&self.incident, "1,0,0,0"))?,
+            stokes: self.stokes,
+            basis: query::basis(&text(&self.basis, "psps"))?,
+            sampling: default_sampling(),
+            limits: Limits::default(),
+        })
+    }
+
+    fn what(&self) -> Result<What, MaterialError> {
+        if let Some(rows) = &self.patches {
+            return Ok(What::List(query::patches(rows)?));
+        }
+        let patch = query::grid_patch(self.patch.as_deref().unwrap_or("point"))?;
+        let grid: GridRequest = query::grid(self.grid.as_deref().unwrap_or(""), patch)?;
+        Ok(What::Grid(grid))
+    }
+}
