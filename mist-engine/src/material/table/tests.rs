@@ -1,3 +1,5 @@
+//! Tables against what is known of them.
+
 use super::*;
 use crate::material::{Material, query::ColourNames};
 
