@@ -32,6 +32,7 @@ pub mod rcw;
 pub mod reflectance;
 pub mod scatterer;
 pub mod shadow;
+pub mod shape;
 pub mod size;
 pub mod slope;
 pub mod spec;

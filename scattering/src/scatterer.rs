@@ -14,6 +14,7 @@ use crate::{
     spec::{Family, Member, Node, Param, ParamError, Spec},
 };
 
+pub mod axisymmetric;
 pub mod coated;
 pub mod layered;
 pub mod mie;
@@ -207,6 +208,7 @@ pub const ALL: &[&Spec<dyn Scatterer>] = &[
     &rayleigh::SPEC,
     &rayleigh_gans::SPEC,
     &optically_active::SPEC,
+    &axisymmetric::SPEC,
 ];
 
 impl Member for dyn Scatterer {

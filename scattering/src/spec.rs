@@ -48,6 +48,8 @@ pub enum Family {
     Grating,
     /// Crossed gratings.
     CrossGrating,
+    /// Bodies of revolution.
+    Shape,
 }
 
 impl Family {
@@ -67,6 +69,7 @@ impl Family {
         Self::SurfaceSize,
         Self::Grating,
         Self::CrossGrating,
+        Self::Shape,
     ];
 
     /// The name of the family's abstract base class.
@@ -86,6 +89,7 @@ impl Family {
             Self::SurfaceSize => "SurfaceParticleSizeDistribution",
             Self::Grating => "Grating",
             Self::CrossGrating => "CrossGrating",
+            Self::Shape => "Axisymmetric_Shape",
         }
     }
 
@@ -109,6 +113,7 @@ impl Family {
             Self::SurfaceSize => list::<dyn crate::size::SurfaceSize>(),
             Self::Grating => list::<dyn crate::grating::Grating>(),
             Self::CrossGrating => list::<dyn crate::cross_grating::CrossGrating>(),
+            Self::Shape => list::<crate::shape::Shape>(),
         }
     }
 }

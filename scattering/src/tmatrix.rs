@@ -13,8 +13,15 @@
 use faer::{Mat, linalg::solvers::Solve};
 use num_complex::Complex64;
 
-use crate::special::harmonics::Harmonics;
+use self::waves::Multipole;
+use crate::{
+    Node, ParamError,
+    shape::Shape,
+    spec::{Family, Param},
+    special::harmonics::Harmonics,
+};
 
+pub mod ebcm;
 pub mod waves;
 
 /// A complex matrix.
@@ -53,6 +60,87 @@ impl TMatrix {
     /// The largest m.
     pub fn m_max(&self) -> usize {
         self.blocks.len() - 1
+    }
+}
+
+/// The largest l that the parameter `lmax` asks for where the size needs `needed`.
+pub(crate) fn l_max(node: &Node, needed: usize) -> Result<usize, ParamError> {
+    let asked = i64::from(node.integer("lmax"));
+    let l = if asked > 0 { asked } else { needed as i64 - asked };
+    match usize::try_from(l) {
+        Ok(l) if l <= MOST => Ok(l),
+        _ => Err(ParamError::new(
+            "lmax",
+            format!("{asked} asks for l up to {l}, more than {MOST}; the size needs {needed}"),
+        )),
+    }
+}
+
+/// The number of multipoles of a body of revolution of the size parameter `x`.
+fn terms(x: f64) -> usize {
+    (x + 4.05 * x.powf(0.3333) + 2.0) as usize
+}
+
+/// The T-matrix of the body `Shape` of `node`, of this index relative to the medium in which the
+/// wave number is `k` 1/µm, with `lmax` and `mmax`.
+///
+/// # Errors
+///
+/// For numbers of multipoles that cannot be had.
+pub(crate) fn read(
+    node: &Node,
+    shape: &Shape,
+    index: Complex64,
+    k: f64,
+) -> Result<TMatrix, ParamError> {
+    let l_max = l_max(node, terms(k * shape.reach()))?;
+    let m_max = match node.integer("mmax") {
+        0 => l_max,
+        asked => usize::try_from(asked)
+            .map_err(|_| ParamError::new("mmax", format!("{asked} is negative")))?
+            .min(l_max),
+    };
+    TMatrix::of_revolution(shape, index, k, l_max, m_max)
+        .ok_or_else(|| ParamError::new("lmax", "too many multipoles for this body: they overflow"))
+}
+
+/// The parameters of a body of revolution.
+pub(crate) const BODY: [Param; 2] = [
+    Param::member(
+        "Shape",
+        Family::Shape,
+        "Axisymmetric_Shape",
+        "Ellipsoid_Axisymmetric_Shape",
+        "Outline of the particle",
+    ),
+    Param::index("particle", "(1.59,0)", "Index of the particle"),
+];
+
+/// The parameters of how many multipoles it gets.
+pub(crate) const MULTIPOLES: [Param; 2] = [
+    Param::integer("lmax", "0", "Largest l: 0 as the size needs, -n that and n more, n just n"),
+    Param::integer("mmax", "0", "Largest m: 0 as lmax, n at most n"),
+];
+
+/// Calls `each` with l − max(1, m) and the outgoing multipole w = B v for the first `rows` values
+/// of l, v the regular waves of one order.
+pub(crate) fn apply(
+    block: &Matrix,
+    regular: &[Multipole],
+    rows: usize,
+    mut each: impl FnMut(usize, Multipole),
+) {
+    let size = block.nrows() / 2;
+    for row in 0..rows {
+        let mut w = Multipole::default();
+        for (column, v) in regular.iter().enumerate() {
+            for (kind, at) in [row, size + row].into_iter().enumerate() {
+                let (e, h) = (block[(at, column)], block[(at, size + column)]);
+                w.p[kind] += e * v.p[0] + h * v.p[1];
+                w.s[kind] += e * v.s[0] + h * v.s[1];
+            }
+        }
+        each(row, w);
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Brdf;
 use crate::spec::{Param, Spec};
 
+pub mod axisymmetric;
 pub mod bobbert_vlieger;
 pub mod double_interaction;
 pub mod one_layer;
@@ -24,6 +25,8 @@ pub const ALL: &[&Spec<dyn Brdf>] = &[
     &polydisperse_sphere::SPEC,
     &bobbert_vlieger::SPEC,
     &bobbert_vlieger::SUBSURFACE,
+    &axisymmetric::SPEC,
+    &axisymmetric::SUBSURFACE,
 ];
 
 /// The parameter of models that multiply the cross-section of a particle by their number.

@@ -73,6 +73,28 @@ pub fn real(n: usize, x: f64) -> (Vec<f64>, Vec<f64>) {
     (psi, chi)
 }
 
+/// ψ_k(z) for k = 0 … `n` and z ≠ 0; the ratios ψ_k/ψ_{k−1} run downward.
+pub fn regular(n: usize, z: Complex64) -> Vec<Complex64> {
+    let mut ratio = vec![Complex64::ZERO; n + 2];
+    let mut above = Complex64::ZERO;
+    for k in (1..=start(n, z)).rev() {
+        above = ((2 * k + 1) as f64 / z - above).inv();
+        if k <= n + 1 {
+            ratio[k] = above;
+        }
+    }
+    let (sin, cos) = (z.sin(), z.cos());
+    let mut psi = vec![sin; n + 1];
+    for k in 1..=n {
+        psi[k] = if k == 1 && sin.norm() < cos.norm() && z.norm() > 1.0 {
+            sin / z - cos
+        } else {
+            psi[k - 1] * ratio[k]
+        };
+    }
+    psi
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -101,6 +123,22 @@ mod tests {
             // ζ_1 ∝ e^{iz}(1/z + … ): ζ_1'/ζ_1 = i − 1/(z(1 − iz))·… from h_1 = −e^{iz}(z + i)/z².
             let expected = Complex64::I + 1.0 / (z + Complex64::I) - 1.0 / z;
             assert!((d3[1] - expected).norm() < 1e-12 * expected.norm());
+        }
+    }
+
+    #[test]
+    fn complex_psi_is_the_real_one_and_has_the_log_derivative() {
+        for x in [0.1, 1.0, std::f64::consts::PI, 20.0] {
+            let (real, _) = real(12, x);
+            for (a, b) in regular(12, x.into()).iter().zip(real) {
+                assert!((a - b).norm() < 1e-13 * b.abs(), "{x}");
+            }
+        }
+        let z = Complex64::new(3.0, 2.0);
+        let (psi, d1) = (regular(8, z), log_derivatives(8, z, start(8, z)));
+        for n in 1..=8 {
+            let slope = psi[n - 1] - psi[n] * n as f64 / z;
+            assert!((slope / psi[n] - d1[n]).norm() < 1e-12 * d1[n].norm(), "{n}");
         }
     }
 }

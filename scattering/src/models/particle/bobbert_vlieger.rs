@@ -11,7 +11,7 @@
 
 use super::{
     LOCAL,
-    supported::{Ground, INTERACTION, Supported, l_max},
+    supported::{Ground, INTERACTION, Supported},
 };
 use crate::{
     Node, ParamError,
@@ -19,7 +19,7 @@ use crate::{
     scatterer::{layered, positive, series},
     spec::{Class, Family, Laws, Param, Spec},
     stack::Stack,
-    tmatrix::TMatrix,
+    tmatrix::{TMatrix, l_max},
 };
 
 const EQUATION: &str = "F = N/(cos_i cos_s) M(J), J = -i sum W Z e^(i m phi), W = (B^-1 - A)^-1 V";

@@ -30,7 +30,7 @@ use crate::{
     special::harmonics::Harmonics,
     stack::Stack,
     tmatrix::{
-        MOST, TMatrix,
+        TMatrix,
         waves::{self, Beam, Multipole, Outgoing},
     },
 };
@@ -131,19 +131,6 @@ fn turned(side: Side) -> Side {
         Side::UpDown => Side::DownUp,
         Side::DownDown => Side::UpUp,
         Side::UpUp => Side::DownDown,
-    }
-}
-
-/// The largest l that the parameter `lmax` asks for where the size needs `needed`.
-pub(super) fn l_max(node: &Node, needed: usize) -> Result<usize, ParamError> {
-    let asked = i64::from(node.integer("lmax"));
-    let l = if asked > 0 { asked } else { needed as i64 - asked };
-    match usize::try_from(l) {
-        Ok(l) if l <= MOST => Ok(l),
-        _ => Err(ParamError::new(
-            "lmax",
-            format!("{asked} asks for l up to {l}, more than {MOST}; the size needs {needed}"),
-        )),
     }
 }
 

@@ -26,7 +26,7 @@ use crate::{
         harmonics::{Harmonics, Scalar},
         laguerre,
     },
-    tmatrix::{Matrix, TMatrix, is_finite, solve, waves::Multipole},
+    tmatrix::{Matrix, TMatrix, apply, is_finite, solve, waves::Multipole},
 };
 
 const I: Complex64 = Complex64::I;
@@ -79,17 +79,7 @@ impl Response {
             let size = matrix.nrows() / 2;
             let v = &regular[start..start + size];
             start += size;
-            for row in 0..*rows {
-                let mut w = Multipole::default();
-                for (column, v) in v.iter().enumerate() {
-                    for (kind, at) in [row, size + row].into_iter().enumerate() {
-                        let (e, h) = (matrix[(at, column)], matrix[(at, size + column)]);
-                        w.p[kind] += e * v.p[0] + h * v.p[1];
-                        w.s[kind] += e * v.s[0] + h * v.s[1];
-                    }
-                }
-                out.push((m, Harmonics::l_min(m) + row, w));
-            }
+            apply(matrix, v, *rows, |row, w| out.push((m, Harmonics::l_min(m) + row, w)));
         }
         out
     }

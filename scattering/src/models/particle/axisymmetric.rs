@@ -1,0 +1,81 @@
+//! A body of revolution, its axis upright, on the smooth face of a substrate, or in the substrate
+//! against its face.
+//!
+//! As [`bobbert_vlieger`](super::bobbert_vlieger), with the [T-matrix](crate::tmatrix) of the body
+//! in the place of the Mie coefficients. The body rests on its lowest node, `delta` over the face;
+//! `lmax` = 0 stands for ⌊x + 4.05x^{0.3333} + 2⌋, x that of the farthest node.
+//!
+//! P. C. Waterman, Phys. Rev. D 3, 825 (1971); P. A. Bobbert and J. Vlieger, Physica A 137, 209
+//! (1986).
+
+use super::{
+    LOCAL,
+    supported::{Ground, INTERACTION, Supported},
+};
+use crate::{
+    Defect, Node, ParamError,
+    models::{Brdf, COMMON, diffuse::INTERFACE},
+    shape::Shape,
+    spec::{Class, Laws, Param, Spec},
+    tmatrix::{self, BODY, MULTIPOLES},
+};
+
+const EQUATION: &str = "F = N/(cos_i cos_s) M(J), J = -i sum W Z e^(i m phi), W = (T^-1 - A)^-1 V";
+const SOURCE: &str = "waterman-1971 bobbert-vlieger-1986 mishchenko-2002";
+
+/// Interchange of beams holds up to the number of nodes of the image's integral only.
+const LAWS: Laws = Laws { reciprocal: false, ..Laws::NOT_PASSIVE };
+
+const PARAMS: &[&[Param]] = &[
+    COMMON,
+    LOCAL,
+    &BODY,
+    INTERFACE,
+    &[Param::number("delta", "0", "um", "Gap between the particle and the face")],
+    &MULTIPOLES,
+    &INTERACTION,
+];
+
+/// How programs name, parameterize and build a body of revolution on a substrate.
+pub const SPEC: Spec<dyn Brdf> = Spec {
+    class: Class {
+        name: "Axisymmetric_Particle_BRDF_Model",
+        parent: "Local_BRDF_Model",
+        summary: "Body of revolution on a smooth surface, with all their interaction",
+        equation: EQUATION,
+        source: SOURCE,
+        params: PARAMS,
+        laws: LAWS,
+    },
+    build: |node| Ok(Box::new(build(node, false)?)),
+};
+
+/// How programs name, parameterize and build a body of revolution in a substrate.
+pub const SUBSURFACE: Spec<dyn Brdf> = Spec {
+    class: Class {
+        name: "Subsurface_Axisymmetric_Particle_BRDF_Model",
+        parent: "Local_BRDF_Model",
+        summary: "Body of revolution in the substrate against its face, with all their interaction",
+        equation: EQUATION,
+        source: SOURCE,
+        params: PARAMS,
+        laws: LAWS,
+    },
+    build: |node| Ok(Box::new(build(node, true)?)),
+};
+
+fn build(node: &Node, buried: bool) -> Result<Supported, ParamError> {
+    let ground = Ground::read(node, buried)?;
+    let shape = node.member::<Shape>("Shape")?;
+    let index = node.index("particle").at(ground.common().lambda);
+    if !(index.norm() > 0.0 && index.is_finite()) {
+        return Err(ParamError::new("particle", format!("{index} is not an index of refraction")));
+    }
+    let particle = tmatrix::read(node, &shape, index / ground.medium, ground.k)?;
+    let (l_max, incomplete) = (particle.l_max, particle.m_max() < particle.l_max);
+    let supported = Supported::new(ground, &particle, shape.height(), l_max)?;
+    if incomplete && node.reproduces(Defect::AxisymmetricIndex) {
+        return Ok(supported.mispairing());
+    }
+    Ok(supported)
+}

@@ -1,0 +1,174 @@
+//! Body of revolution in free space, by its T-matrix.
+//!
+//! The axis is z; the pole θ = 0 of the shape is at −z, as for a particle on a surface. See
+//! [`tmatrix`](crate::tmatrix) and [`waves`](crate::tmatrix::waves).
+//!
+//! P. C. Waterman, Phys. Rev. D 3, 825 (1971).
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use num_complex::Complex64;
+
+use super::{FREE_SPACE, Scatterer, Surroundings};
+use crate::{
+    Jones, Node,
+    polarization::Frame,
+    shape::Shape,
+    spec::{Class, Laws, ParamError, Spec},
+    special::harmonics::Harmonics,
+    tmatrix::{
+        self, BODY, MULTIPOLES, TMatrix,
+        waves::{self, Beam, Multipole, Outgoing},
+    },
+};
+
+/// How programs name, parameterize and build a body of revolution.
+pub const SPEC: Spec<dyn Scatterer> = Spec {
+    class: Class {
+        name: "TMatrix_Axisymmetric_Scatterer",
+        parent: "Free_Space_Scatterer",
+        summary: "Body of revolution",
+        equation: "T = -RgQ Q^-1",
+        source: "waterman-1971 mishchenko-2002",
+        params: &[FREE_SPACE, &BODY, &MULTIPOLES],
+        laws: Laws::NONE,
+    },
+    build: |node| Ok(Box::new(Axisymmetric::read(node)?)),
+};
+
+/// A body of revolution.
+pub struct Axisymmetric {
+    around: Surroundings,
+    particle: TMatrix,
+    harmonics: Harmonics,
+}
+
+impl Axisymmetric {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let around = Surroundings::read(node)?;
+        let shape = node.member::<Shape>("Shape")?;
+        let index = around.relative_index(node, "particle")?;
+        let particle = tmatrix::read(node, &shape, index, around.wave_number())?;
+        let harmonics = Harmonics::new(particle.l_max, particle.m_max());
+        Ok(Self { around, particle, harmonics })
+    }
+}
+
+impl Scatterer for Axisymmetric {
+    fn lambda(&self) -> f64 {
+        self.around.lambda
+    }
+
+    fn medium(&self) -> Complex64 {
+        self.around.medium
+    }
+
+    fn jones(&self, k_in: DVec3, k_out: DVec3, frame_in: &Frame, frame_out: &Frame) -> Jones {
+        let (incoming, outgoing) = (Polar::new(k_in), Polar::new(k_out));
+        let regular = waves::regular(&self.harmonics, &Beam::free(incoming.cos, incoming.sin));
+        let scattered = Outgoing::symmetric(self.particle.answer(&regular).into_iter());
+        let turn = outgoing.azimuth - incoming.azimuth;
+        let azimuth = (turn.cos(), turn.sin());
+        let beam = Beam::free(outgoing.cos, outgoing.sin);
+        let j = scattered.amplitude(&self.harmonics, &beam, azimuth);
+        outgoing.frame().to(frame_out) * j * frame_in.to(&incoming.frame())
+    }
+}
+
+/// A direction in polar coordinates about the axis down.
+struct Polar {
+    cos: f64,
+    sin: f64,
+    /// Counted from x towards −y.
+    azimuth: f64,
+}
+
+impl Polar {
+    fn new(k: DVec3) -> Self {
+        let sin = k.x.hypot(k.y);
+        let azimuth = if sin == 0.0 { 0.0 } else { (-k.y).atan2(k.x).rem_euclid(TAU) };
+        Self { cos: -k.z, sin, azimuth }
+    }
+
+    /// (φ̂, θ̂), which take the places of s and p.
+    fn frame(&self) -> Frame {
+        let (s, c) = self.azimuth.sin_cos();
+        Frame {
+            first: DVec3::new(-s, -c, 0.0),
+            second: DVec3::new(self.cos * c, -self.cos * s, self.sin),
+        }
+    }
+}
+
+impl TMatrix {
+    /// (m, l, w) for regular waves in the order of [`Harmonics::visit`].
+    fn answer(&self, regular: &[Multipole]) -> Vec<(usize, usize, Multipole)> {
+        let mut out = Vec::new();
+        let mut start = 0;
+        for (m, block) in self.blocks.iter().enumerate() {
+            let size = block.nrows() / 2;
+            tmatrix::apply(block, &regular[start..start + size], size, |row, w| {
+                out.push((m, Harmonics::l_min(m) + row, w));
+            });
+            start += size;
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Mode, Value, spec};
+
+    fn particle(vertical: f64, horizontal: f64) -> Box<dyn Scatterer> {
+        let shape = Node::with_defaults(&crate::shape::ellipsoid::SPEC.class, Mode::Sound)
+            .with("vertical", Value::Number(vertical))
+            .and_then(|node| node.with("horizontal", Value::Number(horizontal)))
+            .unwrap();
+        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
+            .with("Shape", Value::Member(shape.into()))
+            .unwrap();
+        spec::build::<dyn Scatterer>(&node).unwrap()
+    }
+
+    fn jones(particle: &dyn Scatterer, k_in: DVec3, k_out: DVec3) -> Jones {
+        particle.jones(k_in, k_out, &Frame::psps(k_in), &Frame::psps(k_out))
+    }
+
+    fn largest(a: &Jones, b: &Jones) -> f64 {
+        [a.ss - b.ss, a.ps - b.ps, a.sp - b.sp, a.pp - b.pp]
+            .iter()
+            .map(|z| z.norm())
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_round_one_is_the_sphere_of_mie() {
+        let class = &super::super::mie::SPEC.class;
+        let node =
+            Node::with_defaults(class, Mode::Sound).with("radius", Value::Number(0.1)).unwrap();
+        let sphere = spec::build::<dyn Scatterer>(&node).unwrap();
+        let body = particle(0.1, 0.1);
+        for (a, b) in [
+            (DVec3::new(0.6, 0.0, -0.8), DVec3::new(0.48, 0.64, 0.6)),
+            (DVec3::new(0.0, 0.0, -1.0), DVec3::new(-0.48, 0.64, -0.6)),
+            (DVec3::new(-0.64, 0.6, 0.48), DVec3::new(0.0, 0.0, 1.0)),
+        ] {
+            let (got, expected) = (jones(&*body, a, b), jones(&*sphere, a, b));
+            // The rule for the number of multipoles leaves out others than Mie's.
+            assert!(largest(&got, &expected) < 1e-6 * (expected.ss.norm() + expected.ps.norm()));
+        }
+    }
+
+    #[test]
+    fn reversed_light_takes_the_same_path() {
+        // S(−k_s, −k_i) is the transpose of S(k_i, k_s) with the signs of psps.
+        let body = particle(0.15, 0.1);
+        let (a, b) = (DVec3::new(0.6, 0.0, -0.8), DVec3::new(0.48, 0.64, 0.6));
+        let (forth, back) = (jones(&*body, a, b), jones(&*body, -b, -a));
+        let expected = Jones { ps: -back.sp, sp: -back.ps, ..back };
+        assert!(largest(&forth, &expected) < 1e-9 * forth.ss.norm(), "{forth:?} {back:?}");
+    }
+}

@@ -1,0 +1,52 @@
+//! Upright cone with rounded edges.
+//!
+//! The origin lies at the centre of mass of the sharp cone, a quarter of the height over its base,
+//! when `offset` is 0. The base is down, unless `updown` is 1.
+
+use super::{
+    RENORM, SHAPE, Shape,
+    outline::{Corner, convex},
+    points,
+};
+use crate::{
+    scatterer::positive,
+    spec::{Class, Laws, Param, Spec},
+};
+
+/// How programs name, parameterize and build a cone.
+pub const SPEC: Spec<Shape> = Spec {
+    class: Class {
+        name: "Conical_Axisymmetric_Shape",
+        parent: "Axisymmetric_Shape",
+        summary: "Cone with rounded edges",
+        equation: "rho = R (z - z_apex)/H, z from the base to the apex",
+        source: "mishchenko-2002",
+        params: &[
+            &SHAPE,
+            &[
+                Param::number("radius", "0.05", "um", "Radius of the base"),
+                Param::number("height", "0.1", "um", "Height"),
+                Param::number("offset", "0", "um", "Centre of mass below the origin"),
+                Param::number("corner_base", "0", "um", "Radius of the edge of the base"),
+                Param::number("corner_apex", "0", "um", "Radius of the apex"),
+                Param::integer("updown", "0", "0 base down, 1 apex down"),
+            ],
+            &RENORM,
+        ],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let (radius, height) = (positive(node, "radius")?, positive(node, "height")?);
+        let turned = node.integer("updown") != 0;
+        let offset = if turned { -node.number("offset") } else { node.number("offset") };
+        let base = 0.25 * height + offset;
+        let corners = [
+            Corner::new(0.0, base, 0.0, "offset"),
+            Corner::new(radius, base, node.number("corner_base"), "corner_base"),
+            Corner::new(0.0, base - height, node.number("corner_apex"), "corner_apex"),
+        ];
+        let volume = std::f64::consts::PI / 3.0 * radius * radius * height;
+        let shape = convex(points(node)?, &corners)?.renormalized(node, || volume);
+        if turned { shape.turned_over() } else { shape }.checked("offset")
+    },
+};
