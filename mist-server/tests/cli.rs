@@ -1,0 +1,139 @@
+//! The command line: outputs, exit codes, files that appear whole or not at all.
+
+use std::{fs, path::Path};
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+fn mist(folder: &Path) -> Command {
+    let mut command = Command::cargo_bin("mist").expect("the binary is built");
+    command.current_dir(folder);
+    command
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+fn root(path: &str) -> String {
+    format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn stdout(command: &mut Command) -> String {
+    String::from_utf8(command.assert().success().get_output().stdout.clone()).unwrap()
+}
+
+fn stderr(command: &mut Command, code: i32) -> String {
+    String::from_utf8(command.assert().code(code).get_output().stderr.clone()).unwrap()
+}
+
+#[test]
+fn every_example_writes_its_colour_table_and_its_picture() {
+    for name in ["gold", "paint", "pearl", "jade"] {
+        let dir = folder();
+        let program = root(&format!("examples/{name}/{name}.mist"));
+        let said = stdout(mist(dir.path()).args(["run", &program]));
+        for extension in ["mtab", "svg", "mspd", "dat", "lst"] {
+            let file = format!("{name}.{extension}");
+            assert!(said.contains(&file), "{said}");
+            assert!(fs::metadata(dir.path().join(&file)).unwrap().len() > 0, "{file}");
+        }
+        let table = fs::read_to_string(dir.path().join(format!("{name}.mtab"))).unwrap();
+        assert!(table.starts_with("# MIST-TABLE 1\n") && table.contains("# end 16 "), "{table}");
+    }
+}
+
+#[test]
+fn a_wrong_program_is_refused_with_its_place_and_leaves_no_file() {
+    let dir = folder();
+    let program = fs::read_to_string(root("examples/gold/gold.mist")).unwrap();
+    let wrong = program.replace("Shadowed_Facet_BRDF_Model", "Shadowed_Facet_BRDF_Modell");
+    fs::write(dir.path().join("a.mist"), wrong).unwrap();
+    let said = stderr(mist(dir.path()).args(["run", "a.mist"]), 2);
+    assert!(said.contains("a.mist:6") && said.contains("Shadowed_Facet_BRDF_Model"), "{said}");
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn results_in_a_folder_that_is_not_there_fail_with_the_remedy() {
+    let dir = folder();
+    let program =
+        root("tests/conformance/programs/v_err_files_unwritable/v_err_files_unwritable.mist");
+    let said = stderr(mist(dir.path()).args(["run", "--compat", &program]), 1);
+    assert!(said.contains("nodir") && said.contains("make it first"), "{said}");
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn under_compat_a_second_name_names_the_job() {
+    let dir = folder();
+    let program = root("tests/conformance/programs/v_lang_jobname/v_lang_jobname.mist");
+    stdout(mist(dir.path()).args(["run", "--compat", &program, "job_7"]));
+    assert!(dir.path().join("job_7.dat").exists() && dir.path().join("job_7.lst").exists());
+}
+
+#[test]
+fn eval_answers_json_and_refuses_unknown_parameters() {
+    let dir = folder();
+    let request = r#"{"model":"Lambertian_BRDF_Model","parameters":{"reflectance.table":0.5},
+        "geometries":[{"theta_i":0.5,"theta_s":0.2,"phi_s":0}]}"#;
+    let said = stdout(mist(dir.path()).arg("eval").write_stdin(request));
+    let answer: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let f = answer["mueller"][0][0].as_f64().unwrap();
+    assert!((f - 0.5 / std::f64::consts::PI).abs() < 1e-15);
+    let wrong = request.replace("reflectance.table", "reflectanse.table");
+    let said = stderr(mist(dir.path()).arg("eval").write_stdin(wrong), 2);
+    assert!(said.contains("reflectance"), "{said}");
+}
+
+#[test]
+fn a_table_has_every_node_and_its_json_twin_the_same_numbers() {
+    let dir = folder();
+    fs::write(
+        dir.path().join("glass.json"),
+        r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","sdf.s":0.3}}"#,
+    )
+    .unwrap();
+    let grid = "thetai=0:30:60,thetas=0:30:60,phis=0:90:180";
+    let make = |output: &str| {
+        stdout(mist(dir.path()).args([
+            "table",
+            "glass.json",
+            "--grid",
+            grid,
+            "--lambda",
+            "400:50:700",
+            "--digits",
+            "17",
+            "-o",
+            output,
+        ]));
+        fs::read_to_string(dir.path().join(output)).unwrap()
+    };
+    let (text, json) = (make("a.mtab"), make("a.json"));
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.split_whitespace().map(|word| word.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 27);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let twin: Vec<Vec<f64>> = serde_json::from_value(json["rows"].clone()).unwrap();
+    assert_eq!(rows, twin);
+}
+
+#[test]
+fn the_manual_of_models_is_printed_from_the_registry() {
+    let dir = folder();
+    let said = stdout(mist(dir.path()).args(["models", "--markdown"]));
+    let kept = fs::read_to_string(root("docs/models.md")).unwrap();
+    assert!(said == kept, "docs/models.md is stale: mist models --markdown > docs/models.md");
+}
+
+#[test]
+fn formatting_a_program_twice_changes_nothing_more() {
+    let dir = folder();
+    let once = stdout(mist(dir.path()).args(["fmt", &root("examples/pearl/pearl.mist")]));
+    fs::write(dir.path().join("b.mist"), &once).unwrap();
+    assert_eq!(stdout(mist(dir.path()).args(["fmt", "b.mist"])), once);
+}

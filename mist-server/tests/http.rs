@@ -1,0 +1,98 @@
+//! The service, asked without a socket.
+
+use axum::{
+    body::{Body, to_bytes},
+    http::{Method, Request, StatusCode, header},
+};
+use mist_server::http::{App, router};
+use tower::ServiceExt;
+
+const GLASS: &str =
+    r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","sdf.s":0.3}}"#;
+const TABLE: &str =
+    "/v1/materials/glass/table.mtab?thetai=0:30:60&thetas=0:30:60&phis=0:90:180&lambda=400:50:700";
+
+struct Answer {
+    status: StatusCode,
+    tag: Option<String>,
+    text: String,
+}
+
+async fn ask(app: &App, method: Method, uri: &str, tag: Option<&str>, body: &str) -> Answer {
+    let mut request = Request::builder().method(method).uri(uri);
+    if let Some(tag) = tag {
+        request = request.header(header::IF_NONE_MATCH, tag);
+    }
+    let request = request.body(Body::from(body.to_owned())).unwrap();
+    let response = router(app.clone()).oneshot(request).await.unwrap();
+    let tag = response.headers().get(header::ETAG).map(|t| t.to_str().unwrap().to_owned());
+    let status = response.status();
+    let bytes = to_bytes(response.into_body(), 1 << 24).await.unwrap();
+    Answer { status, tag, text: String::from_utf8(bytes.to_vec()).unwrap() }
+}
+
+#[tokio::test]
+async fn a_material_goes_in_and_its_table_comes_out() {
+    let app = App::default();
+    let health = ask(&app, Method::GET, "/healthz", None, "").await;
+    assert_eq!((health.status, health.text.as_str()), (StatusCode::OK, "ok\n"));
+    let put = ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
+    assert_eq!(put.status, StatusCode::CREATED);
+    assert!(put.text.contains("sha256-"), "{}", put.text);
+    let table = ask(&app, Method::GET, TABLE, None, "").await;
+    assert_eq!(table.status, StatusCode::OK);
+    assert!(table.text.starts_with("# MIST-TABLE 1\n") && table.text.contains("\n# end 27 "));
+    let again = ask(&app, Method::GET, TABLE, table.tag.as_deref(), "").await;
+    assert_eq!((again.status, again.text.as_str()), (StatusCode::NOT_MODIFIED, ""));
+}
+
+#[tokio::test]
+async fn a_program_stands_for_the_material_of_its_first_step() {
+    let app = App::default();
+    let program = "MODEL = Lambertian_BRDF_Model\nVARIABLES:\n$reflectance.table = r.txt\n\
+        incidentangle = 0 incidentpol = (1,0,0,0) rotation = 0 differential = 1 minsamples = 10 END\n\
+        VARY: END\nINTEGRALS: END\nOUTPUTS: END\nFILES: END\n";
+    let body =
+        serde_json::json!({ "program": program, "files": { "r.txt": "0.3 0.5\n0.9 0.5\n" } });
+    let put = ask(&app, Method::PUT, "/v1/materials/glass", None, &body.to_string()).await;
+    assert_eq!(put.status, StatusCode::CREATED, "{}", put.text);
+    let table = ask(&app, Method::GET, TABLE, None, "").await;
+    assert!(table.text.contains("0.159154943"), "{}", table.text);
+    let wrong = body.to_string().replace("Lambertian", "Lambertain");
+    let refused = ask(&app, Method::PUT, "/v1/materials/wrong", None, &wrong).await;
+    assert_eq!(refused.status, StatusCode::UNPROCESSABLE_ENTITY);
+    let problem: serde_json::Value = serde_json::from_str(&refused.text).unwrap();
+    assert_eq!((problem["line"].as_u64(), problem["column"].as_u64()), (Some(1), Some(9)));
+}
+
+#[tokio::test]
+async fn wrong_requests_are_told_what_is_wrong() {
+    let app = App::default();
+    ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
+    let cases = [
+        (Method::GET, "/v1/materials/none/table.mtab?thetai=0&thetas=0&phis=0", "", 404, "none"),
+        (Method::GET, "/v1/materials/glass/table.xyz?thetai=0&thetas=0&phis=0", "", 404, "xyz"),
+        (Method::GET, "/v1/materials/glass/table.mtab?thetai=0&thetas=x&phis=0", "", 422, "thetas"),
+        (
+            Method::GET,
+            "/v1/materials/glass/table.mtab?thetai=0&thetas=0&phis=0&illuminant=D66",
+            "",
+            422,
+            "illuminant",
+        ),
+        (Method::PUT, "/v1/materials/a", "{", 400, "request"),
+        (Method::PUT, "/v1/materials/a", r#"{"model":"No_Model"}"#, 422, "No_Model"),
+        (
+            Method::PUT,
+            "/v1/materials/a",
+            r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"/etc/passwd"}}"#,
+            422,
+            "passwd",
+        ),
+    ];
+    for (method, uri, body, status, word) in cases {
+        let answer = ask(&app, method, uri, None, body).await;
+        assert_eq!(answer.status.as_u16(), status, "{uri}: {}", answer.text);
+        assert!(answer.text.contains(word), "{uri}: {}", answer.text);
+    }
+}
