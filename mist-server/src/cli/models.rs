@@ -59,6 +59,7 @@ fn title(family: Family) -> &'static str {
         Family::Reflectance => "Reflectances",
         Family::Grating => "Gratings",
         Family::CrossGrating => "Crossed gratings",
+        Family::Shape => "Shapes of bodies of revolution",
         Family::Phase => "Phase functions",
         Family::PolarizedPhase => "Polarized phase functions",
         Family::Scatterer => "Free-space scatterers",
