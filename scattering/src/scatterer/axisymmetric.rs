@@ -169,6 +169,8 @@ mod tests {
         let (a, b) = (DVec3::new(0.6, 0.0, -0.8), DVec3::new(0.48, 0.64, 0.6));
         let (forth, back) = (jones(&*body, a, b), jones(&*body, -b, -a));
         let expected = Jones { ps: -back.sp, sp: -back.ps, ..back };
-        assert!(largest(&forth, &expected) < 1e-9 * forth.ss.norm(), "{forth:?} {back:?}");
+        // T is symmetric up to the multipoles that are cut off.
+        let difference = largest(&forth, &expected) / forth.ss.norm();
+        assert!(difference < 1e-5, "{difference:e}");
     }
 }
