@@ -1,0 +1,123 @@
+//! What `docs/language.md` and `docs/accuracy.md` say is what the program does.
+//!
+//! Blocks that open with `mist` are programs, run without compat; blocks that open with `data NAME`
+//! are files for the programs after them; a block that opens with `text` right behind a program is
+//! the results that it gives, but for white space.
+
+use std::{collections::BTreeMap, fs, path::Path, sync::Arc};
+
+use mist_engine::{Control, MemoryFiles, MemorySink, Options, compile, quirk};
+use mist_format::{Quirk, expr::Function};
+
+/// A fenced block of a document: what stands behind the fence, and its text.
+struct Block {
+    info: String,
+    text: String,
+}
+
+fn document(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+fn blocks(document: &str) -> Vec<Block> {
+    let mut blocks: Vec<Block> = Vec::new();
+    let mut is_open = false;
+    for line in document.lines() {
+        if let Some(info) = line.strip_prefix("```") {
+            if !is_open {
+                blocks.push(Block { info: info.trim().to_owned(), text: String::new() });
+            }
+            is_open = !is_open;
+        } else if is_open {
+            let block = blocks.last_mut().expect("an open block is there");
+            block.text.push_str(line);
+            block.text.push('\n');
+        }
+    }
+    assert!(!is_open, "a block is not closed");
+    blocks
+}
+
+fn results(program: &str, files: &BTreeMap<String, Arc<str>>) -> String {
+    let files = Arc::new(MemoryFiles(files.clone()));
+    let job = compile(program, files, &Options::default())
+        .unwrap_or_else(|diagnostics| panic!("{diagnostics:?} in\n{program}"));
+    let mut sink = MemorySink::default();
+    job.run(&mut sink, &Control::default()).unwrap_or_else(|e| panic!("{e} in\n{program}"));
+    sink.results
+}
+
+/// The words of every line.
+fn words(text: &str) -> Vec<Vec<&str>> {
+    text.lines().map(|line| line.split_whitespace().collect()).collect()
+}
+
+#[test]
+fn every_program_of_the_manual_gives_the_table_below_it() {
+    let blocks = blocks(&document("docs/language.md"));
+    let mut files = BTreeMap::new();
+    let mut programs = 0;
+    for (at, block) in blocks.iter().enumerate() {
+        if let Some(name) = block.info.strip_prefix("data ") {
+            files.insert(name.to_owned(), Arc::from(block.text.as_str()));
+        }
+        if block.info == "mist" {
+            let got = results(&block.text, &files);
+            if let Some(want) = blocks.get(at + 1).filter(|next| next.info == "text") {
+                assert_eq!(words(&got), words(&want.text), "{}", block.text);
+            }
+            programs += 1;
+        }
+    }
+    assert!(programs >= 4, "only {programs} programs were found");
+}
+
+#[test]
+fn the_manual_lists_every_function_with_its_arguments() {
+    let manual = document("docs/language.md");
+    for function in Function::ALL {
+        let start = format!("| `{}(", function.name());
+        let row = manual.lines().find(|line| line.starts_with(&start));
+        let row = row.unwrap_or_else(|| panic!("{} has no row", function.name()));
+        let arguments = row[start.len()..].split(')').next().unwrap_or("");
+        assert_eq!(arguments.split(',').count(), function.arity(), "{row}");
+    }
+}
+
+#[test]
+fn the_manual_lists_every_habit_and_defect_of_nists_program() {
+    let manual = document("docs/language.md");
+    let reading = Quirk::ALL.iter().map(|quirk| format!("{quirk:?}"));
+    let running = quirk::Quirk::ALL.iter().map(|quirk| format!("{quirk:?}"));
+    for name in reading.chain(running).chain(defects()) {
+        assert!(manual.contains(&format!("| `{name}` |")), "{name} has no row");
+    }
+}
+
+/// The variants of `Defect`, read from its source: the type has no list of them.
+fn defects() -> Vec<String> {
+    let source = document("scattering/src/defect.rs");
+    let (_, body) = source.split_once("pub enum Defect {").expect("the type is there");
+    let (body, _) = body.split_once("\n}").expect("the type ends");
+    let names = body.lines().map(str::trim).filter(|line| !line.starts_with("//"));
+    names.filter_map(|line| line.strip_suffix(',')).map(str::to_owned).collect()
+}
+
+#[test]
+fn tests_that_documents_name_are_there() {
+    for name in
+        ["README.md", "ARCHITECTURE.md", "docs/accuracy.md", "docs/conventions.md", "docs/language.md"]
+    {
+        for word in document(name).split(|c: char| c.is_whitespace() || "`()|,;".contains(c)) {
+            if word.starts_with("tests/") || word.contains("/tests/") || word.contains("/src/") {
+                let path = word.trim_end_matches(['.', ':', '/']);
+                if path.contains(['*', '{', '<', '…', ':']) {
+                    continue;
+                }
+                let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+                assert!(file.exists(), "{name} names {path}, which is not there");
+            }
+        }
+    }
+}
