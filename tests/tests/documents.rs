@@ -106,9 +106,13 @@ fn defects() -> Vec<String> {
 
 #[test]
 fn tests_that_documents_name_are_there() {
-    for name in
-        ["README.md", "ARCHITECTURE.md", "docs/accuracy.md", "docs/conventions.md", "docs/language.md"]
-    {
+    for name in [
+        "README.md",
+        "ARCHITECTURE.md",
+        "docs/accuracy.md",
+        "docs/conventions.md",
+        "docs/language.md",
+    ] {
         for word in document(name).split(|c: char| c.is_whitespace() || "`()|,;".contains(c)) {
             if word.starts_with("tests/") || word.contains("/tests/") || word.contains("/src/") {
                 let path = word.trim_end_matches(['.', ':', '/']);
