@@ -75,7 +75,7 @@ fn only_the_server_opens_files_sockets_and_thread_pools() {
     for name in CRATES.iter().filter(|name| **name != "mist-server") {
         let all = sources(&root().join(name).join("src"));
         for path in all.iter().filter(|path| path.file_name().is_none_or(|n| n != "tests.rs")) {
-            let text = fs::read_to_string(&path).expect("a source is text");
+            let text = fs::read_to_string(path).expect("a source is text");
             let code = text.split("#[cfg(test)]").next().unwrap_or(&text);
             let code = code.lines().filter(|line| !line.trim_start().starts_with("//"));
             for line in code {
