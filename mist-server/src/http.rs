@@ -1,5 +1,6 @@
 //! The HTTP service: every route on one screen.
 
+mod asked;
 mod error;
 mod materials;
 mod table;
@@ -7,7 +8,7 @@ mod table;
 use axum::{
     Router,
     extract::DefaultBodyLimit,
-    routing::{get, put},
+    routing::{get, post, put},
 };
 
 use crate::compute::Compute;
@@ -40,6 +41,7 @@ pub fn router(app: App) -> Router {
             "/v1/materials/{name}",
             put(materials::put).get(materials::get).delete(materials::delete),
         )
+        .route("/v1/materials/{name}/integrate", post(table::integrate))
         .route("/v1/materials/{name}/{file}", get(table::table))
         .layer(DefaultBodyLimit::max(MOST_BYTES))
         .with_state(app)

@@ -66,6 +66,34 @@ async fn a_program_stands_for_the_material_of_its_first_step() {
 }
 
 #[tokio::test]
+async fn patches_in_the_url_and_in_the_body_have_the_rows_of_the_request() {
+    let app = App::default();
+    ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
+    let rows = "45 45 0 circle 2\n45 60 0 ring 10 12\n30 0 0 circle 5\n";
+    let wanted = "lambda=400:50:700&stokes=1&digits=17";
+    let uri = format!("/v1/materials/glass/integrate?{wanted}");
+    let posted = ask(&app, Method::POST, &uri, None, rows).await;
+    assert_eq!(posted.status, StatusCode::OK, "{}", posted.text);
+    let table = rise_bridge::read::mtab(&posted.text).unwrap();
+    assert_eq!(table.rows.iter().map(|row| row.thetas).collect::<Vec<_>>(), [45.0, 60.0, 0.0]);
+    let in_url = rows.trim().replace(' ', "%20").replace('\n', ";");
+    let uri = format!("/v1/materials/glass/table.mtab?{wanted}&patches={in_url}");
+    assert_eq!(ask(&app, Method::GET, &uri, None, "").await.text, posted.text);
+}
+
+#[tokio::test]
+async fn the_bare_text_of_a_program_is_a_material() {
+    let app = App::default();
+    let program = "MODEL = Lambertian_BRDF_Model\nVARIABLES:\n\
+        incidentangle = 0 incidentpol = (1,0,0,0) rotation = 0 differential = 1 minsamples = 10 END\n\
+        VARY: END\nINTEGRALS: END\nOUTPUTS: END\nFILES: END\n";
+    let put = ask(&app, Method::PUT, "/v1/materials/white", None, program).await;
+    assert_eq!(put.status, StatusCode::CREATED, "{}", put.text);
+    let table = ask(&app, Method::GET, &TABLE.replace("glass", "white"), None, "").await;
+    assert!(table.text.contains("0.318309886"), "{}", table.text);
+}
+
+#[tokio::test]
 async fn wrong_requests_are_told_what_is_wrong() {
     let app = App::default();
     ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
@@ -80,6 +108,10 @@ async fn wrong_requests_are_told_what_is_wrong() {
             422,
             "illuminant",
         ),
+        (Method::GET, "/v1/materials/glass/table.mtab?thetai=0&color=D65", "", 400, "color"),
+        (Method::GET, "/v1/materials/glass/table.mtab", "", 400, "thetai"),
+        (Method::GET, "/v1/materials/glass/table.mtab?thetai=0&digits=99", "", 400, "digits"),
+        (Method::POST, "/v1/materials/glass/integrate", "1 2 3 square 4", 422, "line 1"),
         (Method::PUT, "/v1/materials/a", "{", 400, "request"),
         (Method::PUT, "/v1/materials/a", r#"{"model":"No_Model"}"#, 422, "No_Model"),
         (

@@ -16,6 +16,8 @@ use crate::compute::Panicked;
 pub(crate) enum ApiError {
     /// Nothing has this name.
     NotFound(String),
+    /// The query of the URL cannot be read.
+    Query(String),
     /// The request is understood, but its material or its query is wrong.
     Material(MaterialError),
     /// The program is wrong: its text and what was found.
@@ -52,6 +54,9 @@ impl IntoResponse for ApiError {
             Self::NotFound(what) => {
                 let body = json!({ "code": "not-found", "message": format!("there is no {what}") });
                 (StatusCode::NOT_FOUND, body)
+            }
+            Self::Query(message) => {
+                (StatusCode::BAD_REQUEST, json!({ "code": "query", "message": message }))
             }
             Self::Material(error) => {
                 let status = match &error {

@@ -69,14 +69,22 @@ pub(super) async fn put(
     Ok((StatusCode::CREATED, Json(json!({ "hash": hash }))))
 }
 
-/// The material that `body` describes: material JSON, or a program with files.
+/// The material that `body` describes: material JSON, a program with files, or the bare text of
+/// a program that needs none.
 fn prepare(body: &str) -> Result<Prepared, ApiError> {
+    if !body.trim_start().starts_with('{') {
+        let program = body.to_owned();
+        return first_step(Program { program, files: BTreeMap::new(), compat: false });
+    }
     let json: Value = serde_json::from_str(body).map_err(MaterialError::Json)?;
     if json.get("program").is_none() {
         return checked(Material::from_json(body)?.prepare(Mode::Sound, None)?);
     }
-    let Program { program, files, compat } =
-        serde_json::from_value(json).map_err(MaterialError::Json)?;
+    first_step(serde_json::from_value(json).map_err(MaterialError::Json)?)
+}
+
+/// The material of a program's first step.
+fn first_step(Program { program, files, compat }: Program) -> Result<Prepared, ApiError> {
     let files = files.into_iter().map(|(name, text)| (name, text.into())).collect();
     let mode = if compat { Mode::Compat } else { Mode::Sound };
     let options = Options { mode, ..Options::default() };

@@ -1,53 +1,29 @@
-//! `GET /v1/materials/{name}/table.mtab?…`: a colour table by one URL.
+//! Colour tables: of a grid or of patches by one URL, of patches in the body of a request.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
 
 use axum::{
-    extract::{Path, Query, State},
+    extract::{Path, State},
     http::{HeaderMap, StatusCode, header},
     response::{IntoResponse, Response},
 };
 use mist_engine::{
     Control,
-    material::{MaterialError, query::ColourNames, table},
+    material::{MaterialError, table},
 };
-use rise_bridge::write::Style;
-use serde::Deserialize;
 use sha2::{Digest, Sha256};
 
-use super::{App, error::ApiError, materials::Kept};
+use super::{App, asked::Asked, error::ApiError, materials::Kept};
 use crate::{products::Product, wanted::Wanted};
-
-/// What the URL asks for; angles in degrees, wavelengths in nm.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Asked {
-    thetai: String,
-    thetas: String,
-    phis: Option<String>,
-    patch: Option<String>,
-    lambda: Option<String>,
-    illuminant: Option<String>,
-    observer: Option<String>,
-    space: Option<String>,
-    adaptation: Option<String>,
-    quantity: Option<String>,
-    filter: Option<String>,
-    incident: Option<String>,
-    basis: Option<String>,
-    #[serde(default)]
-    stokes: u8,
-    digits: Option<usize>,
-    #[serde(default)]
-    xyz: u8,
-    /// Which Stokes component of the spectra: 0 … 3.
-    #[serde(default)]
-    component: usize,
-}
 
 /// `GET /v1/materials/{name}/table.{mtab|mspd|json|svg}`
 pub(super) async fn table(
     State(app): State<App>,
     Path((name, file)): Path<(String, String)>,
-    Query(asked): Query<Asked>,
+    asked: Asked,
     headers: HeaderMap,
 ) -> Result<Response, ApiError> {
     let product =
@@ -55,50 +31,69 @@ pub(super) async fn table(
             ApiError::NotFound(format!("{file}: ask for table.mtab, .mspd, .json or .svg"))
         })?;
     let kept = app.materials.find(&name)?;
-    let tag = tag(&kept, product, &asked);
-    if headers.get(header::IF_NONE_MATCH).is_some_and(|given| given.as_bytes() == tag.as_bytes()) {
+    let wanted = asked.wanted()?;
+    let tag = tag(&name, &kept, product, &asked);
+    if is_known(&headers, &tag) {
         return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
     }
-    let text = app.compute.run(move || text(&name, &kept, product, &asked)).await??;
-    let kind = product.content_type().to_owned();
-    Ok(([(header::ETAG, tag), (header::CONTENT_TYPE, kind)], text).into_response())
+    let answer = answer(&app, name, kept, product, (wanted, asked)).await?;
+    Ok(([(header::ETAG, tag)], answer).into_response())
+}
+
+/// `POST /v1/materials/{name}/integrate`: rows `thetai thetas phis circle 2` in the body.
+pub(super) async fn integrate(
+    State(app): State<App>,
+    Path(name): Path<String>,
+    asked: Asked,
+    rows: String,
+) -> Result<Response, ApiError> {
+    let kept = app.materials.find(&name)?;
+    let wanted = asked.wanted_at(rows);
+    answer(&app, name, kept, Product::Table, (wanted, asked)).await
+}
+
+async fn answer(
+    app: &App,
+    name: String,
+    kept: Arc<Kept>,
+    product: Product,
+    (wanted, asked): (Wanted, Asked),
+) -> Result<Response, ApiError> {
+    let leash = Leash::default();
+    let control = Control { cancel: leash.0.clone(), progress: None };
+    let work = move || -> Result<String, ApiError> {
+        let request = wanted.request(&name, None)?;
+        let table = table::table(&kept.prepared, &request, &control)?;
+        product
+            .text(&table, asked.component(), asked.style())
+            .map_err(|error| MaterialError::NotFinite(error.to_string()).into())
+    };
+    let text = app.compute.run(work).await??;
+    Ok(([(header::CONTENT_TYPE, product.content_type())], text).into_response())
+}
+
+/// Stops the work when the answer is not awaited any more, because the client has gone.
+#[derive(Default)]
+struct Leash(Arc<AtomicBool>);
+
+impl Drop for Leash {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
 }
 
 /// Equal requests for equal materials have equal answers, so the tag needs no table.
-fn tag(kept: &Kept, product: Product, asked: &Asked) -> String {
+fn tag(name: &str, kept: &Kept, product: Product, asked: &Asked) -> String {
     let version = env!("CARGO_PKG_VERSION");
-    let digest = Sha256::digest(format!("{version} {} {product:?} {asked:?}", kept.hash));
+    let digest = Sha256::digest(format!("{version} {name:?} {} {product:?} {asked:?}", kept.hash));
     format!("\"sha256-{digest:x}\"")
 }
 
-fn text(name: &str, kept: &Kept, product: Product, asked: &Asked) -> Result<String, ApiError> {
-    let request = asked.wanted().request(name, None)?;
-    let table = table::table(&kept.prepared, &request, &Control::default())?;
-    let style = Style { digits: asked.digits.unwrap_or(9).clamp(1, 17), xyz: asked.xyz != 0 };
-    product
-        .text(&table, asked.component.min(3), style)
-        .map_err(|error| ApiError::from(MaterialError::NotFinite(error.to_string())))
-}
-
-impl Asked {
-    fn wanted(&self) -> Wanted {
-        let phis = self.phis.as_ref().map(|phis| format!(",phis={phis}")).unwrap_or_default();
-        Wanted {
-            grid: Some(format!("thetai={},thetas={}{phis}", self.thetai, self.thetas)),
-            patches: None,
-            patch: self.patch.clone(),
-            lambda: self.lambda.clone(),
-            incident: self.incident.clone(),
-            basis: self.basis.clone(),
-            stokes: self.stokes != 0,
-            colours: ColourNames {
-                illuminant: self.illuminant.clone(),
-                observer: self.observer.clone(),
-                space: self.space.clone(),
-                adaptation: self.adaptation.clone(),
-                quantity: self.quantity.clone(),
-                filters: self.filter.iter().cloned().collect(),
-            },
-        }
-    }
+/// Whether the client has what `tag` names: `If-None-Match` is `*` or a list of tags.
+fn is_known(headers: &HeaderMap, tag: &str) -> bool {
+    let given = headers.get_all(header::IF_NONE_MATCH).iter().filter_map(|v| v.to_str().ok());
+    given
+        .flat_map(|list| list.split(','))
+        .map(|one| one.trim())
+        .any(|one| one == "*" || one.strip_prefix("W/").unwrap_or(one) == tag)
 }
