@@ -1,6 +1,6 @@
 //! Compiles MIST programs to jobs and runs them.
 //!
-//! [`compile`] turns the text of a program and its data files into an immutable [`Job`];
+//! [`compile()`] turns the text of a program and its data files into an immutable [`Job`];
 //! [`Job::run`] replays its expressions step by step, evaluates the model in parallel and
 //! writes the tables through a [`Sink`]. Between the two everything is a pure function of the
 //! job: the same numbers to the last bit on any number of threads.

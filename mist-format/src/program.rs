@@ -1,6 +1,6 @@
 //! A MIST program as a tree: sections in their order, every text with its place.
 //!
-//! [`parse`] reads a program, [`Program`]'s `Display` prints it back with its comments.
+//! [`parse()`] reads a program, [`Program`]'s `Display` prints it back with its comments.
 
 mod check;
 mod color;

@@ -1,6 +1,6 @@
 //! Colour tables in the formats that renderers read, and back.
 //!
-//! [`write`] turns a [`ColourTable`](mist_engine::colour::ColourTable) into text: the table
+//! [`mod@write`] turns a [`ColourTable`](mist_engine::colour::ColourTable) into text: the table
 //! `.mtab`, its spectra `.mspd`, their JSON twin and a picture. [`read`] brings `.mtab` and
 //! `.mspd` back and finds every truncation. The text format is described in
 //! `docs/formats/mtab.md`.

@@ -1,6 +1,6 @@
 //! Coated sphere: a core of radius r − t in a shell of thickness t.
 //!
-//! The coefficients of [`layered`] with two layers.
+//! The coefficients of [`layered`](super::layered) with two layers.
 //!
 //! A. L. Aden and M. Kerker, J. Appl. Phys. 22, 1242 (1951); C. F. Bohren and D. R. Huffman,
 //! *Absorption and Scattering of Light by Small Particles* (Wiley, 1983), 8.1.

@@ -1,6 +1,6 @@
 //! Sphere with any number of coats.
 //!
-//! The coefficients of [`layered`]. The films of `stack` lie within the radius, the first one on
+//! The coefficients of [`layered`](super::layered). The films of `stack` lie within the radius, the first one on
 //! the core.
 //!
 //! W. Yang, Appl. Opt. 42, 1710 (2003).
