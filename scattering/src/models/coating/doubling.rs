@@ -123,6 +123,52 @@ mod tests {
         assert!((r - 0.478).abs() < 2e-3, "{r}");
     }
 
+    /// Numbers from 0 to 1 (a linear congruential generator of Knuth's).
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((self.0 >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+        }
+    }
+
+    /// The part of `photons` walks of diffuse light that leave a slab on a black backing upwards.
+    fn walked(depth: f64, albedo: f64, g: f64, photons: u32) -> f64 {
+        let mut random = Random(11);
+        let mut returned = 0;
+        for _ in 0..photons {
+            let (mut z, mut mu) = (0.0, random.next().sqrt());
+            loop {
+                z -= random.next().ln() * mu;
+                if z < 0.0 {
+                    returned += 1;
+                    break;
+                }
+                if z > depth || random.next() > albedo {
+                    break;
+                }
+                let part = (1.0 - g * g) / (1.0 - g + 2.0 * g * random.next());
+                let cos = (1.0 + g * g - part * part) / (2.0 * g);
+                let turn = (std::f64::consts::TAU * random.next()).cos();
+                let sines = (1.0 - mu * mu) * (1.0 - cos * cos);
+                mu = mu * cos + sines.max(0.0).sqrt() * turn;
+            }
+        }
+        f64::from(returned) / f64::from(photons)
+    }
+
+    #[test]
+    fn random_walks_return_as_much() {
+        let photons = 100_000;
+        for (depth, albedo, g) in [(1.0, 0.9, 0.8), (5.0, 0.99, 0.5), (0.3, 1.0, -0.4)] {
+            let (walked, r) =
+                (walked(depth, albedo, g, photons), reflectance(depth, albedo, g, 0.0));
+            let deviation = (r * (1.0 - r) / f64::from(photons)).sqrt();
+            assert!((walked - r).abs() < 4.0 * deviation, "{depth} {albedo} {g}: {walked} {r}");
+        }
+    }
+
     #[test]
     fn the_depth_of_the_thin_slab_does_not_matter() {
         let nodes = gauss::legendre(NODES, 0.0, 1.0);

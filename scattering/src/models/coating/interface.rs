@@ -171,12 +171,12 @@ impl Interface {
     }
 
     /// Smooth reflection of light from above with this sine.
-    pub(super) fn from_above(&self, sin: f64) -> Passage {
+    pub(super) fn reflects_above(&self, sin: f64) -> Passage {
         Passage::of(self.films.r12(sin.into()), 1.0)
     }
 
     /// Smooth reflection of light from below; `sin` is n times the sine there, and may exceed 1.
-    pub(super) fn from_below(&self, sin: f64) -> Passage {
+    pub(super) fn reflects_below(&self, sin: f64) -> Passage {
         Passage::of(self.films.r21(sin.into()), 1.0)
     }
 }

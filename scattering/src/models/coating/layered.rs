@@ -221,7 +221,7 @@ fn diffuse_body(
 impl Coat {
     fn new(layer: &Layer, above: f64, lambda: f64) -> Result<Self, ParamError> {
         let Complex64 { re: n, im: k } = layer.material.at(lambda);
-        if !(n >= 1.0 && n.is_finite()) || !(k >= 0.0 && k.is_finite()) {
+        if !(n >= 1.0 && n.is_finite() && k >= 0.0 && k.is_finite()) {
             let problem = format!("{n} + {k}i: n has to be at least 1, k at least 0");
             return Err(ParamError::new("material", problem));
         }
@@ -249,11 +249,11 @@ impl Coat {
             let passes = above.passes.then(crossing).scaled(absorbed);
             return Above { passes, returns: Passage::NONE };
         }
-        let reflected = self.interface.from_above(ray.sin);
+        let reflected = self.interface.reflects_above(ray.sin);
         let trips = above.returns.then(reflected).repeated();
         let passes = above.passes.then(crossing).then(trips).scaled(absorbed);
         let through = crossing.then(crossing).then(above.returns).then(trips);
-        let returns = self.interface.from_below(ray.sin).plus(through);
+        let returns = self.interface.reflects_below(ray.sin).plus(through);
         Above { passes, returns: returns.scaled(absorbed * absorbed) }
     }
 
@@ -264,7 +264,7 @@ impl Coat {
         let sin = kappa / n_above;
         let cos = (1.0 - (kappa / self.n).powi(2)).max(0.0).sqrt();
         let absorbed = self.left(cos).powi(2);
-        let reflected = self.interface.from_below(sin);
+        let reflected = self.interface.reflects_below(sin);
         if sin >= 1.0 {
             return reflected.scaled(absorbed);
         }
@@ -279,7 +279,7 @@ impl Coat {
         let trips = if self.interface.is_rough() {
             Passage::FREE
         } else {
-            returns.then(self.interface.from_above(sin)).repeated()
+            returns.then(self.interface.reflects_above(sin)).repeated()
         };
         back.plus(crossing.then(crossing).then(returns).then(trips)).scaled(absorbed)
     }

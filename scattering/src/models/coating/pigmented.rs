@@ -60,7 +60,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         parent: "Subsurface_Facet_BRDF_Model",
         summary: "Rough coat with flakes over a body of particles",
         equation: "F = F_surface + ws T F_flakes T/n^2 + wd a/(pi n^2 (1-rho a)) t x t",
-        source: "germer-2001 sancer-1969 wolff-1994 vandehulst-1980 kubelka-munk-1931",
+        source: "germer-2001 sancer-1969 wolff-1994 vandehulst-1980 wiscombe-1976 wiscombe-1977",
         params: &[COMMON, FACET, OVERCOAT, OWN],
         laws: Laws::ALL,
     },
@@ -214,7 +214,7 @@ impl Pigmented {
             gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
                 let kappa = sin_outside(t.sin());
                 let passed = if passes { self.surface.smooth_passage(kappa).row()[0] } else { 0.0 };
-                (1.0 - self.surface.from_below(kappa).row()[0] - passed) * (2.0 * t).sin()
+                (1.0 - self.surface.reflects_below(kappa).row()[0] - passed) * (2.0 * t).sin()
             })
         };
         let beyond = n2 - 1.0;
