@@ -1,8 +1,8 @@
 //! Coatings of pigments and clear layers.
 //!
-//! Light that crosses an interface of a coating is a [`passage::Passage`]; what a rough interface
-//! sends back is kept in a table ([`returned`]), so that what it lets pass is the rest. Models
-//! below a coat are built [`immersed`]: for light that comes from inside the coat.
+//! What an interface lets pass is kept as factors of s, p and their coherence; what a rough one
+//! sends back is tabulated when a model is built, so that what it lets pass is the rest. Models
+//! below a coat are built immersed: for light that comes from inside the coat.
 
 use super::Brdf;
 use crate::spec::Spec;
