@@ -50,8 +50,6 @@ pub enum Family {
     CrossGrating,
     /// Bodies of revolution.
     Shape,
-    /// Thick layers of a coating.
-    Layer,
 }
 
 impl Family {
@@ -72,7 +70,6 @@ impl Family {
         Self::Grating,
         Self::CrossGrating,
         Self::Shape,
-        Self::Layer,
     ];
 
     /// The name of the family's abstract base class.
@@ -93,7 +90,6 @@ impl Family {
             Self::Grating => "Grating",
             Self::CrossGrating => "CrossGrating",
             Self::Shape => "Axisymmetric_Shape",
-            Self::Layer => "Layer",
         }
     }
 
@@ -118,7 +114,6 @@ impl Family {
             Self::Grating => list::<dyn crate::grating::Grating>(),
             Self::CrossGrating => list::<dyn crate::cross_grating::CrossGrating>(),
             Self::Shape => list::<crate::shape::Shape>(),
-            Self::Layer => list::<crate::models::coating::layer::Layer>(),
         }
     }
 }
