@@ -50,6 +50,8 @@ pub enum Family {
     CrossGrating,
     /// Bodies of revolution.
     Shape,
+    /// Thick layers of a coating.
+    Layer,
 }
 
 impl Family {
@@ -70,6 +72,7 @@ impl Family {
         Self::Grating,
         Self::CrossGrating,
         Self::Shape,
+        Self::Layer,
     ];
 
     /// The name of the family's abstract base class.
@@ -90,6 +93,7 @@ impl Family {
             Self::Grating => "Grating",
             Self::CrossGrating => "CrossGrating",
             Self::Shape => "Axisymmetric_Shape",
+            Self::Layer => "Layer",
         }
     }
 
@@ -114,6 +118,7 @@ impl Family {
             Self::Grating => list::<dyn crate::grating::Grating>(),
             Self::CrossGrating => list::<dyn crate::cross_grating::CrossGrating>(),
             Self::Shape => list::<crate::shape::Shape>(),
+            Self::Layer => list::<crate::models::coating::layer::Layer>(),
         }
     }
 }

@@ -60,6 +60,7 @@ fn title(family: Family) -> &'static str {
         Family::Grating => "Gratings",
         Family::CrossGrating => "Crossed gratings",
         Family::Shape => "Shapes of bodies of revolution",
+        Family::Layer => "Layers of coatings",
         Family::Phase => "Phase functions",
         Family::PolarizedPhase => "Polarized phase functions",
         Family::Scatterer => "Free-space scatterers",

@@ -1,0 +1,241 @@
+//! One interface of a coating, smooth or rough, seen from the medium above it.
+//!
+//! A smooth interface lets pass what Fresnel's equations say. A rough one with the facet BRDF F
+//! returns the row e of [`Returned`]; what passes is then the rest, t = (1, 0, 0, 0) − e less what
+//! the films absorb, so that no energy is lost or gained whatever the roughness. Light is taken to
+//! go on in the direction of Snell's law.
+
+use num_complex::Complex64;
+
+use super::{passage::Passage, returned::Returned};
+use crate::{
+    Direction, Incidence, Mode, Mueller, Node, ParamError, Value,
+    models::{Brdf, facet::shadowed},
+    optics::{Index, film::Films},
+    slope::SlopeDistribution,
+    spec,
+    stack::Film,
+};
+
+/// One interface.
+pub(super) struct Interface {
+    /// Index below over index above.
+    pub(super) n: f64,
+    films: Films,
+    rough: Option<Rough>,
+    absorbs: bool,
+    /// Σ |n| t of the films, µm.
+    optical_thickness: f64,
+}
+
+/// The facets of a rough interface and what they return.
+struct Rough {
+    facets: Box<dyn Brdf>,
+    returned: Returned,
+}
+
+/// A ray at an interface: its angle above, its azimuth in the sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ray {
+    /// sin θ.
+    pub(super) sin: f64,
+    /// cos θ.
+    pub(super) cos: f64,
+    /// cos 2r and sin 2r of the rotation of a sample that the ray comes to as an incident beam.
+    pub(super) turn: (f64, f64),
+}
+
+impl Ray {
+    /// The incident beam.
+    pub(super) fn incident(at: &Incidence) -> Self {
+        let (c, s) = (at.cos_rotation, at.sin_rotation);
+        Self { sin: at.sin, cos: at.cos, turn: (c * c - s * s, 2.0 * s * c) }
+    }
+
+    /// The beam that comes back along `direction`, on the sample turned by r + π − φ.
+    pub(super) fn reversed(at: &Incidence, direction: &Direction) -> Self {
+        let (c, s) = (
+            at.cos_rotation * direction.cos_phi + at.sin_rotation * direction.sin_phi,
+            at.sin_rotation * direction.cos_phi - at.cos_rotation * direction.sin_phi,
+        );
+        Self { sin: direction.sin, cos: direction.cos, turn: (c * c - s * s, 2.0 * s * c) }
+    }
+
+    /// The ray below an interface with the relative index `n`.
+    pub(super) fn below(&self, n: f64) -> Self {
+        let sin = self.sin / n;
+        Self { sin, cos: (1.0 - sin * sin).max(0.0).sqrt(), turn: self.turn }
+    }
+
+    /// It as an incident beam on the sample of `at`.
+    pub(super) fn incidence(&self, at: &Incidence) -> Incidence {
+        Incidence { theta: self.sin.asin(), sin: self.sin, cos: self.cos, ..*at }
+    }
+
+    /// It as an exit along the azimuth of `direction`.
+    pub(super) fn direction(&self, direction: &Direction) -> Direction {
+        Direction { theta: self.sin.asin(), sin: self.sin, cos: self.cos, ..*direction }
+    }
+}
+
+/// The roughness of an interface: members of the families Slope and Shadow, not yet built.
+pub(super) struct Roughness<'a> {
+    /// Slopes.
+    pub(super) slopes: &'a Node,
+    /// Shadowing.
+    pub(super) shadow: &'a Node,
+}
+
+impl Interface {
+    /// Between the indices `above` and `below` with `films` (index, thickness µm; the lowest
+    /// first) at the vacuum wavelength `lambda` µm.
+    pub(super) fn new(
+        (above, below): (f64, f64),
+        films: &[(Complex64, f64)],
+        lambda: f64,
+        roughness: Option<Roughness<'_>>,
+    ) -> Result<Self, ParamError> {
+        let n = below / above;
+        let films: Vec<_> = films.iter().map(|&(index, t)| (index / above, t)).collect();
+        let stack = Films::new(&films, Complex64::ONE, n.into(), lambda / above);
+        let rough = roughness
+            .map(|roughness| Rough::new(n.into(), &films, lambda / above, &stack, &roughness))
+            .transpose()?;
+        let absorbs = films.iter().any(|(index, _)| index.im != 0.0);
+        let optical_thickness = above * films.iter().map(|(n, t)| n.norm() * t).sum::<f64>();
+        Ok(Self { n, films: stack, rough, absorbs, optical_thickness })
+    }
+
+    /// Σ |n| t of its films, µm.
+    pub(super) fn optical_thickness(&self) -> f64 {
+        self.optical_thickness
+    }
+
+    /// Whether its films absorb.
+    pub(super) fn absorbs(&self) -> bool {
+        self.absorbs
+    }
+
+    /// Whether it is rough.
+    pub(super) fn is_rough(&self) -> bool {
+        self.rough.is_some()
+    }
+
+    /// What the facets reflect; nothing if it is smooth.
+    pub(super) fn facets(&self) -> Option<&dyn Brdf> {
+        self.rough.as_ref().map(|rough| &*rough.facets)
+    }
+
+    /// What passes a smooth interface, for a ray from either side.
+    fn smooth(&self, sin: f64, cos: f64, cos_below: f64) -> Passage {
+        Passage::of(self.films.t12(sin.into()), self.n * cos_below / cos)
+    }
+
+    /// What passes, s and p alone.
+    pub(super) fn passage(&self, ray: &Ray) -> Passage {
+        let smooth = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos);
+        match &self.rough {
+            None => smooth,
+            Some(rough) => {
+                rough.lessen(smooth, rough.returned.at(ray.sin.asin(), ray.turn.0, ray.turn.1))
+            }
+        }
+    }
+
+    /// What would pass if it were smooth.
+    pub(super) fn smooth_passage(&self, sin: f64) -> Passage {
+        let ray = Ray { sin, cos: (1.0 - sin * sin).sqrt(), turn: (1.0, 0.0) };
+        self.smooth(sin, ray.cos, ray.below(self.n).cos)
+    }
+
+    /// The mean of [`Interface::passage`] over azimuths.
+    pub(super) fn mean_passage(&self, sin: f64) -> Passage {
+        let ray = Ray { sin, cos: (1.0 - sin * sin).sqrt(), turn: (1.0, 0.0) };
+        let smooth = self.smooth(sin, ray.cos, ray.below(self.n).cos);
+        match &self.rough {
+            None => smooth,
+            Some(rough) => rough.lessen(smooth, rough.returned.mean(sin.asin())),
+        }
+    }
+
+    /// The row of all that passes of a Stokes vector.
+    pub(super) fn row(&self, ray: &Ray) -> [f64; 4] {
+        let mut row = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos).row();
+        if let Some(rough) = &self.rough {
+            let more = rough.returned.at(ray.sin.asin(), ray.turn.0, ray.turn.1);
+            for (x, e) in row.iter_mut().zip(more) {
+                *x -= e;
+            }
+        }
+        realizable(row)
+    }
+
+    /// Smooth reflection of light from above with this sine.
+    pub(super) fn reflects_above(&self, sin: f64) -> Passage {
+        Passage::of(self.films.r12(sin.into()), 1.0)
+    }
+
+    /// Smooth reflection of light from below; `sin` is n times the sine there, and may exceed 1.
+    pub(super) fn reflects_below(&self, sin: f64) -> Passage {
+        Passage::of(self.films.r21(sin.into()), 1.0)
+    }
+}
+
+impl Rough {
+    fn new(
+        n: Complex64,
+        films: &[(Complex64, f64)],
+        lambda: f64,
+        stack: &Films,
+        roughness: &Roughness<'_>,
+    ) -> Result<Self, ParamError> {
+        let node = facets(n, films, lambda, roughness)?;
+        let facets = spec::build::<dyn Brdf>(&node)?;
+        let slopes = spec::build::<dyn SlopeDistribution>(roughness.slopes)?;
+        let smooth = |sin: f64, _| Passage::of(stack.r12(sin.into()), 1.0).row();
+        let brdf = |at: &Incidence, to: &Direction| facets.mueller(at, to);
+        let returned = Returned::tabulate(&*slopes, &brdf, &smooth, std::f64::consts::FRAC_PI_2);
+        Ok(Self { facets, returned })
+    }
+
+    /// `smooth` less what the facets return more than a smooth interface would.
+    fn lessen(&self, smooth: Passage, more: [f64; 4]) -> Passage {
+        let s = (smooth.s - more[0] - more[1]).clamp(0.0, 1.0);
+        let p = (smooth.p - more[0] + more[1]).clamp(0.0, 1.0);
+        smooth.with_intensities(s, p)
+    }
+}
+
+/// The row with no more polarization than intensity, and an intensity of 0 to 1.
+fn realizable([i, q, u, v]: [f64; 4]) -> [f64; 4] {
+    let i = i.clamp(0.0, 1.0);
+    let polarized = (q * q + u * u + v * v).sqrt();
+    let keep = if polarized > i { i / polarized } else { 1.0 };
+    [i, keep * q, keep * u, keep * v]
+}
+
+/// The shadowed facets of the index `n` relative to the medium of the light.
+pub(super) fn facets(
+    n: Complex64,
+    films: &[(Complex64, f64)],
+    lambda: f64,
+    roughness: &Roughness<'_>,
+) -> Result<Node, ParamError> {
+    let index = |n: Complex64| Index::constant(n.re, n.im);
+    let film = |&(n, thickness): &(Complex64, f64)| Film { index: index(n), thickness };
+    let films = films.iter().map(film).collect();
+    let stack = Node::with_defaults(&crate::stack::list::SPEC.class, Mode::Sound)
+        .with("stack", Value::Films(films))?;
+    Node::with_defaults(&shadowed::SPEC.class, Mode::Sound)
+        .with("lambda", Value::Number(lambda))?
+        .with("substrate", Value::Index(index(n)))?
+        .with("stack", Value::Member(stack.into()))?
+        .with("sdf", Value::Member(roughness.slopes.clone().into()))?
+        .with("shadow", Value::Member(roughness.shadow.clone().into()))
+}
+
+/// Reflected by `brdf` below an interface, seen from above: what passes in, times F, times what
+/// passes out, over n².
+pub(super) fn behind((out, into): (Passage, Passage), inner: Mueller, n_squared: f64) -> Mueller {
+    out.matrix() * inner * into.matrix() * (1.0 / n_squared)
+}

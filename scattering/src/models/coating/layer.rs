@@ -1,0 +1,83 @@
+//! One thick layer of a layered coating: a homogeneous medium under an interface.
+//!
+//! Thick means: many times the wavelength over the coherence of the light, so that light reflected
+//! at its two faces does not interfere. Films that interfere belong into `stack`. A layer of
+//! thickness 0 is not there: neither its interface nor its films are.
+//!
+//! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.6.
+
+use crate::{
+    Node,
+    optics::Index,
+    spec::{Class, Family, Laws, Member, Param, ParamError, Spec},
+};
+
+/// How programs name, parameterize and build it.
+pub const SPEC: Spec<Layer> = Spec {
+    class: Class {
+        name: "Coat_Layer",
+        parent: "Layer",
+        summary: "Thick homogeneous layer",
+        equation: "A = exp(-4 pi k t/(lambda cos(theta')))",
+        source: "born-1999",
+        params: &[&[
+            Param::index("material", "(1.5,0)", "Index of the layer; n at least 1"),
+            Param::number("thickness", "10", "um", "Thickness; 0: no layer"),
+            Param::member(
+                "stack",
+                Family::Stack,
+                "StackModel",
+                "No_StackModel",
+                "Films on the upper face, which interfere",
+            ),
+            Param::member(
+                "sdf",
+                Family::Slope,
+                "Slope_Distribution_Function",
+                "Unit_Slope_Distribution_Function",
+                "Slopes of the upper face; Unit_Slope_Distribution_Function: smooth",
+            ),
+            Param::member(
+                "shadow",
+                Family::Shadow,
+                "Shadow_Function",
+                "Sancer_Shadow_Function",
+                "Shadowing of the upper face; not asked for if it is smooth",
+            ),
+        ]],
+        laws: Laws::NONE,
+    },
+    build: |node| {
+        let thickness = node.number("thickness");
+        if !(thickness >= 0.0 && thickness.is_finite()) {
+            return Err(ParamError::new("thickness", format!("{thickness} um is not a thickness")));
+        }
+        Ok(Box::new(Layer {
+            material: node.index("material").clone(),
+            thickness,
+            node: node.clone(),
+        }))
+    },
+};
+
+/// A thick layer.
+#[derive(Clone, Debug)]
+pub struct Layer {
+    /// Its index.
+    pub material: Index,
+    /// Its thickness, µm.
+    pub thickness: f64,
+    /// The rest: films and roughness of its upper face.
+    pub(super) node: Node,
+}
+
+/// All of them, in the order they are listed to users.
+pub const ALL: &[&Spec<Layer>] = &[&SPEC];
+
+impl Member for Layer {
+    const FAMILY: Family = Family::Layer;
+
+    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
+        Box::new(ALL.iter().copied())
+    }
+}

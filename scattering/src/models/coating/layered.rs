@@ -1,0 +1,352 @@
+//! Thick clear or absorbing coats over any model.
+//!
+//! With F_j the BRDF of all below interface j as it is seen inside layer j, η = n_j/n_{j−1} and
+//! sin θ⁽ʲ⁾ = sin θ⁽ʲ⁻¹⁾/η,
+//!
+//! $$ \mathbf F_{j-1} = \mathbf S_j + \frac{1}{\eta^2}\,\mathbf T_j(\theta_s)\,A_j(\theta_s)\,
+//!    \mathbf F_j(\theta_i^{(j)},\theta_s^{(j)},\phi)\,A_j(\theta_i)\,\mathbf T_j(\theta_i),
+//!    \qquad A_j = e^{-4\pi k_j t_j/(\lambda\cos\theta^{(j)})} $$
+//!
+//! S_j are the facets of a rough interface (a smooth one reflects into one direction, which is no
+//! BRDF), T_j what the interface lets pass. The model at the bottom is immersed in the last layer:
+//! every index over n, wavelength λ/n. Models for which that means nothing are refused.
+//!
+//! Light that goes back and forth between smooth interfaces is added up for s, p and their
+//! coherence (T_1 T_2/(1 − A R_1 R_2 A), and so on downwards). A diffuse body at the bottom
+//! (`Lambertian_BRDF_Model`, or `Diffuse_Subsurface_BRDF_Model` with its own interface) gets the
+//! factor 1/(1 − ρR), ρ the part of diffuse light that all layers send back. Without absorption and
+//! with at most one rough interface, on which no smooth one follows, coats over a white body lose
+//! no light.
+//!
+//! `layer1` is the uppermost of `layers` layers. A layered model as `model` has its layers below
+//! these, so their number is not limited.
+//!
+//! Left out: light that goes back and forth between a rough interface and others or between the
+//! interfaces and a bottom that is not diffuse, and the spread of directions by refraction at
+//! rough interfaces. Absorption is taken along the refracted direction of the real index.
+//!
+//! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), sections 1.5 and 1.6; T. A. Germer
+//! and M. E. Nadal, Proc. SPIE 4447, 77 (2001).
+
+use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
+
+use num_complex::Complex64;
+
+use super::{
+    immersed::immersed,
+    interface::{Interface, Ray, Roughness, behind},
+    layer::Layer,
+    passage::{Passage, depolarized},
+};
+use crate::{
+    Basis, Direction, Incidence, Model, Mueller, Node, ParamError,
+    models::{self, Brdf, COMMON, Common, diffuse},
+    reflectance::Reflectance,
+    slope,
+    spec::{Class, Family, Laws, Param, Spec},
+    special::gauss,
+    stack::Stack,
+};
+
+/// How programs name, parameterize and build it.
+pub const SPEC: Spec<dyn Brdf> = Spec {
+    class: Class {
+        name: "Layered_BRDF_Model",
+        parent: "BRDF_Model",
+        summary: "Thick clear or absorbing coats over any model",
+        equation: "F_(j-1) = S_j + T_j A_j F_j A_j T_j (n_(j-1)/n_j)^2",
+        source: "born-1999 germer-2001",
+        params: &[
+            COMMON,
+            &[
+                Param::member(
+                    "model",
+                    Family::Brdf,
+                    "BRDF_Model",
+                    "Lambertian_BRDF_Model",
+                    "The model below all layers",
+                ),
+                Param::integer("layers", "1", "How many layers there are, 0 to 4"),
+                layer("layer1", "The uppermost layer"),
+                layer("layer2", "The second layer from above"),
+                layer("layer3", "The third layer from above"),
+                layer("layer4", "The fourth layer from above"),
+            ],
+        ],
+        laws: Laws::NOT_PASSIVE,
+    },
+    build: |node| Ok(Box::new(Layered::read(node)?)),
+};
+
+const fn layer(name: &'static str, doc: &'static str) -> Param {
+    Param::member(name, Family::Layer, "Layer", "Coat_Layer", doc)
+}
+
+const NAMES: [&str; 4] = ["layer1", "layer2", "layer3", "layer4"];
+
+/// Nodes of the integral over diffuse light, in each of its smooth pieces.
+const NODES: usize = 64;
+
+/// Layers over a model.
+struct Layered {
+    common: Common,
+    /// From above.
+    coats: Vec<Coat>,
+    bottom: Bottom,
+}
+
+/// A layer with the interface on it.
+struct Coat {
+    interface: Interface,
+    /// Index of the layer.
+    n: f64,
+    /// 4πkt/λ.
+    depth: f64,
+}
+
+/// What lies below all layers.
+enum Bottom {
+    /// A diffuse body of this reflectance, for light inside the last layer.
+    Diffuse {
+        /// R/(π(1 − ρR)).
+        strength: f64,
+    },
+    /// Any other model, immersed.
+    Immersed(Model),
+}
+
+/// All layers down to some depth, for one ray.
+#[derive(Clone, Copy)]
+struct Above {
+    /// What passes.
+    passes: Passage,
+    /// What comes back of light from below, through the last layer and back.
+    returns: Passage,
+}
+
+impl Above {
+    const NOTHING: Self = Self { passes: Passage::FREE, returns: Passage::NONE };
+}
+
+impl Layered {
+    fn read(node: &Node) -> Result<Self, ParamError> {
+        let common = Common::read(node)?;
+        common.only_reflection(SPEC.class.name)?;
+        let mut coats = Vec::new();
+        let below = add_coats(node, &common, &mut coats)?;
+        let n = coats.last().map_or(1.0, |coat| coat.n);
+        let bottom = match diffuse_body(&below, &common, &mut coats)? {
+            Some(reflectance) => {
+                let strength =
+                    FRAC_1_PI * reflectance / (1.0 - recycled(&coats, common.lambda) * reflectance);
+                Bottom::Diffuse { strength }
+            }
+            None => {
+                let inside = immersed("model", &below, n, common.lambda)?;
+                Bottom::Immersed(models::build(&inside).map_err(|error| error.inside("model"))?)
+            }
+        };
+        Ok(Self { common, coats, bottom })
+    }
+}
+
+/// Adds the layers of `node`, and those of a layered model below them; returns the model below all.
+fn add_coats(node: &Node, common: &Common, coats: &mut Vec<Coat>) -> Result<Node, ParamError> {
+    let count = node.integer("layers");
+    if !(0..=NAMES.len() as i32).contains(&count) {
+        return Err(ParamError::new("layers", format!("{count} is not from 0 to {}", NAMES.len())));
+    }
+    for name in &NAMES[..count as usize] {
+        let layer = node.member::<Layer>(name)?;
+        if layer.thickness == 0.0 {
+            continue;
+        }
+        let above = coats.last().map_or(1.0, |coat| coat.n);
+        coats.push(Coat::new(&layer, above, common.lambda).map_err(|error| error.inside(name))?);
+    }
+    let below = node.child("model");
+    check_same(below, common)?;
+    if below.class.name == SPEC.class.name {
+        return add_coats(below, common, coats).map_err(|error| error.inside("model"));
+    }
+    Ok(below.clone())
+}
+
+/// The model below sees the light of the layered model, and its substrate is that of the whole.
+fn check_same(below: &Node, common: &Common) -> Result<(), ParamError> {
+    let Common { lambda, substrate, side } = Common::read(below).map_err(|e| e.inside("model"))?;
+    let differs = |parameter: &str, own: String, whole: String| {
+        let problem = format!("{own} is not {whole}, that of the model around it");
+        Err(ParamError::new(&format!("model.{parameter}"), problem))
+    };
+    if lambda != common.lambda {
+        return differs("lambda", format!("{lambda} um"), format!("{} um", common.lambda));
+    }
+    if substrate != common.substrate {
+        return differs("substrate", substrate.to_string(), common.substrate.to_string());
+    }
+    if side != common.side {
+        return differs("type", side.number().to_string(), common.side.number().to_string());
+    }
+    Ok(())
+}
+
+/// The reflectance of the model `below` if it is a diffuse body; its own interface becomes a coat.
+fn diffuse_body(
+    below: &Node,
+    common: &Common,
+    coats: &mut Vec<Coat>,
+) -> Result<Option<f64>, ParamError> {
+    let name = below.class.name;
+    let under_interface = name == diffuse::diffuse_subsurface::SPEC.class.name;
+    if !under_interface && name != diffuse::lambertian::SPEC.class.name {
+        return Ok(None);
+    }
+    let inside = |error: ParamError| error.inside("model");
+    if under_interface {
+        let above = coats.last().map_or(1.0, |coat| coat.n);
+        let films = below.member::<Stack>("stack").map_err(inside)?.at(common.lambda);
+        let n = common.substrate.re;
+        if !(n >= 1.0 && n.is_finite()) {
+            let problem = format!("an index of {n} is below that of the air");
+            return Err(ParamError::new("substrate", problem));
+        }
+        let interface = Interface::new((above, n), &films, common.lambda, None)?;
+        coats.push(Coat { interface, n, depth: 0.0 });
+    }
+    let reflectance = below.member::<dyn Reflectance>("reflectance").map_err(inside)?;
+    Ok(Some(reflectance.at(common.lambda)))
+}
+
+impl Coat {
+    fn new(layer: &Layer, above: f64, lambda: f64) -> Result<Self, ParamError> {
+        let Complex64 { re: n, im: k } = layer.material.at(lambda);
+        if !(n >= 1.0 && n.is_finite() && k >= 0.0 && k.is_finite()) {
+            let problem = format!("{n} + {k}i: n has to be at least 1, k at least 0");
+            return Err(ParamError::new("material", problem));
+        }
+        let node = &layer.node;
+        let films = node.member::<Stack>("stack")?.at(lambda);
+        let smooth = node.child("sdf").class.name == slope::unit::SPEC.class.name;
+        let roughness = (!smooth)
+            .then(|| Roughness { slopes: node.child("sdf"), shadow: node.child("shadow") });
+        let interface = Interface::new((above, n), &films, lambda, roughness)?;
+        Ok(Self { interface, n, depth: 4.0 * PI * k * layer.thickness / lambda })
+    }
+
+    /// What is left of light after one passage at an angle with this cosine.
+    fn left(&self, cos: f64) -> f64 {
+        if self.depth == 0.0 { 1.0 } else { (-self.depth / cos).exp() }
+    }
+
+    /// The layers down to this one for the ray `ray` above it, whose angle in it has the cosine
+    /// `cos`; `sin` is that of the ray above.
+    fn add(&self, above: Above, ray: &Ray, cos: f64) -> Above {
+        let crossing = self.interface.passage(ray);
+        let absorbed = self.left(cos);
+        if self.interface.is_rough() {
+            // What it reflects goes into other directions.
+            let passes = above.passes.then(crossing).scaled(absorbed);
+            return Above { passes, returns: Passage::NONE };
+        }
+        let reflected = self.interface.reflects_above(ray.sin);
+        let trips = above.returns.then(reflected).repeated();
+        let passes = above.passes.then(crossing).then(trips).scaled(absorbed);
+        let through = crossing.then(crossing).then(above.returns).then(trips);
+        let returns = self.interface.reflects_below(ray.sin).plus(through);
+        Above { passes, returns: returns.scaled(absorbed * absorbed) }
+    }
+
+    /// The part of light with the tangential index `kappa` that all layers down to this one send
+    /// back, once it has crossed this one twice, of diffuse light from below.
+    fn recycled(&self, above: (f64, Passage), kappa: f64) -> Passage {
+        let (n_above, returns) = above;
+        let sin = kappa / n_above;
+        let cos = (1.0 - (kappa / self.n).powi(2)).max(0.0).sqrt();
+        let absorbed = self.left(cos).powi(2);
+        let reflected = self.interface.reflects_below(sin);
+        if sin >= 1.0 {
+            return reflected.scaled(absorbed);
+        }
+        let crossing = self.interface.mean_passage(sin);
+        // A rough interface sends back what it lets pass less than a smooth one.
+        let smooth = self.interface.smooth_passage(sin);
+        let back = Passage {
+            s: reflected.s + smooth.s - crossing.s,
+            p: reflected.p + smooth.p - crossing.p,
+            c: reflected.c,
+        };
+        let trips = if self.interface.is_rough() {
+            Passage::FREE
+        } else {
+            returns.then(self.interface.reflects_above(sin)).repeated()
+        };
+        back.plus(crossing.then(crossing).then(returns).then(trips)).scaled(absorbed)
+    }
+}
+
+/// ρ: the part of diffuse light from below all coats that comes back.
+fn recycled(coats: &[Coat], lambda: f64) -> f64 {
+    let Some(last) = coats.last() else { return 0.0 };
+    // The integrand has kinks where light begins to be reflected totally.
+    let mut ends = vec![0.0, 1.0, last.n];
+    ends.extend(coats.iter().map(|coat| coat.n).filter(|n| *n < last.n));
+    ends.sort_by(f64::total_cmp);
+    let thickest = coats.iter().map(|coat| coat.interface.optical_thickness()).fold(0.0, f64::max);
+    // Interference fringes are followed with ten nodes for each half wave.
+    let nodes = NODES + (20.0 * thickest / lambda).min(4000.0) as usize;
+    let mut sum = 0.0;
+    for pair in ends.windows(2) {
+        let (from, span) = (pair[0] * pair[0], pair[1] * pair[1] - pair[0] * pair[0]);
+        if span <= 0.0 {
+            continue;
+        }
+        sum += span
+            * gauss::integrate(nodes, 0.0, FRAC_PI_2, |t| {
+                let kappa = (from + span * t.sin().powi(2)).sqrt();
+                let mut above = (1.0, Passage::NONE);
+                for coat in coats {
+                    above = (coat.n, coat.recycled(above, kappa));
+                }
+                above.1.row()[0] * (2.0 * t).sin()
+            });
+    }
+    sum / (last.n * last.n)
+}
+
+impl Brdf for Layered {
+    fn common(&self) -> &Common {
+        &self.common
+    }
+
+    fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
+        let (mut ray_i, mut ray_s) =
+            (Ray::incident(incidence), Ray::reversed(incidence, direction));
+        let (mut above_i, mut above_s) = (Above::NOTHING, Above::NOTHING);
+        let mut n = 1.0;
+        let mut sum = Mueller::ZERO;
+        for coat in &self.coats {
+            if let Some(facets) = coat.interface.facets() {
+                let seen = facets.mueller(&ray_i.incidence(incidence), &ray_s.direction(direction));
+                sum += behind((above_s.passes, above_i.passes), seen, n * n);
+            }
+            let (below_i, below_s) = (ray_i.below(coat.interface.n), ray_s.below(coat.interface.n));
+            above_i = coat.add(above_i, &ray_i, below_i.cos);
+            above_s = coat.add(above_s, &ray_s, below_s.cos);
+            (ray_i, ray_s, n) = (below_i, below_s, coat.n);
+        }
+        match &self.bottom {
+            Bottom::Diffuse { strength } => {
+                let rows = (above_s.passes.row(), above_i.passes.row());
+                sum += depolarized(strength / (n * n), rows.0, rows.1);
+            }
+            Bottom::Immersed(model) => {
+                let mut inner = [Mueller::ZERO];
+                let to = ray_s.direction(direction);
+                model.evaluate(&ray_i.incidence(incidence), &[to], Basis::Psps, &mut inner);
+                sum += behind((above_s.passes, above_i.passes), inner[0], n * n);
+            }
+        }
+        sum
+    }
+}

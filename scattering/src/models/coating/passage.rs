@@ -1,0 +1,115 @@
+//! What happens to light that crosses, or is reflected by, parallel interfaces.
+//!
+//! The planes of s and p are those of every interface, so all matrices have the form
+//! M(diag(t_s, t_p)) or are sums of such: the intensities of s and p and the product
+//! c = t_p t_s* multiply one by one. The series of reflections between two interfaces is a
+//! geometric series of each of the three.
+
+use num_complex::Complex64;
+
+use crate::{Mueller, optics::film::Pair};
+
+/// The factors of s and p light and of their coherence.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Passage {
+    /// Intensity of s.
+    pub(super) s: f64,
+    /// Intensity of p.
+    pub(super) p: f64,
+    /// t_p t_s*.
+    pub(super) c: Complex64,
+}
+
+impl Passage {
+    /// Nothing happens.
+    pub(super) const FREE: Self = Self { s: 1.0, p: 1.0, c: Complex64::ONE };
+    /// No light passes.
+    pub(super) const NONE: Self = Self { s: 0.0, p: 0.0, c: Complex64::ZERO };
+
+    /// The passage with the amplitudes `t`, times `factor`.
+    pub(super) fn of(t: Pair, factor: f64) -> Self {
+        Self {
+            s: factor * t.s.norm_sqr(),
+            p: factor * t.p.norm_sqr(),
+            c: factor * t.p * t.s.conj(),
+        }
+    }
+
+    /// The same with other intensities and the same phase.
+    pub(super) fn with_intensities(self, s: f64, p: f64) -> Self {
+        let before = self.s * self.p;
+        let c = if before > 0.0 { self.c * (s * p / before).sqrt() } else { Complex64::ZERO };
+        Self { s, p, c }
+    }
+
+    /// One passage after the other.
+    pub(super) fn then(self, next: Self) -> Self {
+        Self { s: self.s * next.s, p: self.p * next.p, c: self.c * next.c }
+    }
+
+    /// The same with every intensity times `factor`.
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        Self { s: self.s * factor, p: self.p * factor, c: self.c * factor }
+    }
+
+    /// The sum of both.
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self { s: self.s + other.s, p: self.p + other.p, c: self.c + other.c }
+    }
+
+    /// 1 + x + x² + … of a round trip x.
+    pub(super) fn repeated(self) -> Self {
+        let sum = |x: f64| 1.0 / (1.0 - x);
+        Self { s: sum(self.s), p: sum(self.p), c: 1.0 / (1.0 - self.c) }
+    }
+
+    /// Its Mueller matrix.
+    pub(super) fn matrix(&self) -> Mueller {
+        let (sum, difference) = (0.5 * (self.s + self.p), 0.5 * (self.s - self.p));
+        let Complex64 { re, im } = self.c;
+        Mueller([
+            [sum, difference, 0.0, 0.0],
+            [difference, sum, 0.0, 0.0],
+            [0.0, 0.0, re, -im],
+            [0.0, 0.0, im, re],
+        ])
+    }
+
+    /// First row of the matrix: what passes of the incident Stokes vector.
+    pub(super) fn row(&self) -> [f64; 4] {
+        [0.5 * (self.s + self.p), 0.5 * (self.s - self.p), 0.0, 0.0]
+    }
+}
+
+/// strength · u ⊗ t: complete depolarization between what enters by `entering` and what leaves
+/// by `leaving`, both given as what passes of a beam from outside.
+pub(super) fn depolarized(strength: f64, leaving: [f64; 4], entering: [f64; 4]) -> Mueller {
+    // The reversed beam has the opposite U.
+    let [i, q, u, v] = leaving.map(|x| strength * x);
+    Mueller([i, q, -u, v].map(|out| entering.map(|into| out * into)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn passage() -> Passage {
+        let t = Pair { s: Complex64::new(0.5, 0.2), p: Complex64::new(-0.1, 0.7) };
+        Passage::of(t, 1.3)
+    }
+
+    #[test]
+    fn a_passage_is_the_matrix_of_its_amplitudes() {
+        let t = Pair { s: Complex64::new(0.5, 0.2), p: Complex64::new(-0.1, 0.7) };
+        let difference = passage().matrix() - t.jones().mueller() * 1.3;
+        assert!(difference.largest() < 1e-15);
+    }
+
+    #[test]
+    fn the_series_of_round_trips_is_the_inverse_of_the_matrix() {
+        let trip = passage().scaled(0.4);
+        let one = Mueller::diagonal([1.0; 4]);
+        let product = (one - trip.matrix()) * trip.repeated().matrix();
+        assert!((product - one).largest() < 1e-15);
+    }
+}

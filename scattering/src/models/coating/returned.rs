@@ -1,0 +1,242 @@
+//! What a rough surface returns of a beam, for every direction of incidence and polarization.
+//!
+//! $$ \mathbf e(\theta, r) = \int \mathbf F_{0\cdot}\cos\theta_s\,d\Omega_s
+//!    = \int \mathbf F_{0\cdot}\cos\theta_s\,4 c\,n_z^3\,d^2\zeta $$
+//!
+//! is a row: e · (I, Q, U, V) of the incident light is the power that comes back. c = −k_i·n̂. The
+//! integral runs over the slopes ζ of the facets, where a lobe has one size at all angles; light
+//! goes up from facets within the disc |ζ|² + 2 tan θ ζ_i < 1 alone (ζ_i along the plane of
+//! incidence), so each ray from ζ = 0 has one end and the integrand is smooth on it.
+//!
+//! The table has the difference to the row of a smooth surface, which is small and varies slowly,
+//! on nodes that are dense towards grazing incidence; in the rotation r of the sample it is a
+//! Fourier series of even orders, since slopes (±ζ_x, ±ζ_y) are equally frequent.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use crate::{Direction, Incidence, Mueller, slope::SlopeDistribution, special::gauss};
+
+/// Intervals of the table in angle.
+const ANGLES: usize = 64;
+/// Nodes of the integral along each ray of slopes.
+const RADII: usize = 18;
+/// Rays at normal and at grazing incidence, where their ends differ most.
+const AZIMUTHS: (usize, usize) = (40, 160);
+/// Rotations of an anisotropic surface over half a turn; even.
+const ROTATIONS: usize = 16;
+/// The integral ends where the density has fallen to this part of its peak, at most at
+/// [`FARTHEST`] standard deviations.
+const NEGLIGIBLE: f64 = 1e-11;
+const FARTHEST: f64 = 12.0;
+/// The share of what returns by which the table is too large, more than its error, so that no
+/// energy is gained.
+const MARGIN: f64 = 2e-4;
+/// Grazing incidence: a limit that is not reached.
+const GRAZING: f64 = FRAC_PI_2 - 1e-4;
+
+/// The rows of one surface.
+#[derive(Clone, Debug)]
+pub(super) struct Returned {
+    /// Angle of the last node.
+    last: f64,
+    /// For every node the coefficients of 1, cos 2r, sin 2r, cos 4r, …
+    nodes: Vec<Vec<[f64; 4]>>,
+}
+
+impl Returned {
+    /// The rows of the facets `brdf` with these slopes up to the angle `last`, less `smooth` (a
+    /// function of the sine and the cosine of incidence).
+    pub(super) fn tabulate(
+        slopes: &dyn SlopeDistribution,
+        brdf: &dyn Fn(&Incidence, &Direction) -> Mueller,
+        smooth: &dyn Fn(f64, f64) -> [f64; 4],
+        last: f64,
+    ) -> Self {
+        let last = last.min(GRAZING);
+        let rotations = if is_isotropic(slopes) { 1 } else { ROTATIONS };
+        let rule = Rule::new(slopes);
+        let node = |j: usize| {
+            let theta = last * angle(j as f64 / ANGLES as f64);
+            let row = |k: usize| -> [f64; 4] {
+                let at = Incidence::new(theta, PI * k as f64 / rotations as f64);
+                let (whole, flat) = (rule.integrate(&at, brdf), smooth(at.sin, at.cos));
+                let factor = |i| if i == 0 { 1.0 + MARGIN } else { 1.0 };
+                std::array::from_fn(|i| factor(i) * whole[i] - flat[i])
+            };
+            let quarter: Vec<_> = (0..=rotations / 2).map(row).collect();
+            // The mirror image has the opposite U and V.
+            let mirrored = |k: usize| match quarter.get(k) {
+                Some(row) => *row,
+                None => {
+                    let [i, q, u, v] = quarter[rotations - k];
+                    [i, q, -u, -v]
+                }
+            };
+            let rows: Vec<_> = (0..rotations).map(mirrored).collect();
+            series(&rows)
+        };
+        Self { last, nodes: (0..=ANGLES).map(node).collect() }
+    }
+
+    /// The difference to the smooth row at the angle of incidence `theta` and the rotation whose
+    /// doubled angle has this cosine and sine.
+    pub(super) fn at(&self, theta: f64, cos_2r: f64, sin_2r: f64) -> [f64; 4] {
+        let x = ANGLES as f64 * (1.0 - (1.0 - theta.abs() / self.last).max(0.0).sqrt());
+        let first = (x as usize).saturating_sub(1).min(ANGLES - 3);
+        let weights = lagrange(x - first as f64);
+        let mut row = [0.0; 4];
+        let (mut cos, mut sin) = (1.0, 0.0);
+        for order in 0..self.nodes[0].len() {
+            // 0: 1; 1: cos 2r, 2: sin 2r, …
+            if order % 2 == 1 {
+                (cos, sin) = (cos * cos_2r - sin * sin_2r, sin * cos_2r + cos * sin_2r);
+            }
+            let basis = if order % 2 == 1 || order == 0 { cos } else { sin };
+            for (k, weight) in weights.iter().enumerate() {
+                let coefficients = self.nodes[first + k][order];
+                for (x, c) in row.iter_mut().zip(coefficients) {
+                    *x += basis * weight * c;
+                }
+            }
+        }
+        row
+    }
+
+    /// The mean over all rotations.
+    pub(super) fn mean(&self, theta: f64) -> [f64; 4] {
+        let whole =
+            Self { last: self.last, nodes: self.nodes.iter().map(|node| vec![node[0]]).collect() };
+        whole.at(theta, 1.0, 0.0)
+    }
+}
+
+/// Angle at the place u of the table, both in units of their range.
+fn angle(u: f64) -> f64 {
+    1.0 - (1.0 - u) * (1.0 - u)
+}
+
+/// Weights of the cubic through the nodes 0 to 3 at x.
+fn lagrange(x: f64) -> [f64; 4] {
+    let (a, b, c) = (x - 1.0, x - 2.0, x - 3.0);
+    [-a * b * c / 6.0, 0.5 * x * b * c, -0.5 * x * a * c, x * a * b / 6.0]
+}
+
+/// Fourier coefficients of rows at equidistant rotations over half a turn.
+fn series(rows: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    let count = rows.len();
+    let project = |norm: f64, basis: &dyn Fn(f64) -> f64| {
+        let mut sum = [0.0; 4];
+        for (k, row) in rows.iter().enumerate() {
+            let weight = norm / count as f64 * basis(TAU * k as f64 / count as f64);
+            for (s, x) in sum.iter_mut().zip(row) {
+                *s += weight * x;
+            }
+        }
+        sum
+    };
+    let mut coefficients = vec![project(1.0, &|_| 1.0)];
+    for order in 1..count.div_ceil(2) {
+        let m = order as f64;
+        coefficients.push(project(2.0, &|r| (m * r).cos()));
+        coefficients.push(project(2.0, &|r| (m * r).sin()));
+    }
+    coefficients
+}
+
+fn is_isotropic(slopes: &dyn SlopeDistribution) -> bool {
+    let (x, y) = deviations(slopes);
+    [0.5, 1.0, 2.0].into_iter().all(|scale| {
+        let s = scale * x.max(y);
+        let along = slopes.density(s, 0.0);
+        [(0.0, s), (0.6 * s, 0.8 * s), (-0.8 * s, 0.6 * s)]
+            .into_iter()
+            .all(|(x, y)| (slopes.density(x, y) - along).abs() <= 1e-9 * along)
+    })
+}
+
+/// Standard deviations, or a wide range where none are known.
+fn deviations(slopes: &dyn SlopeDistribution) -> (f64, f64) {
+    slopes.deviations().unwrap_or((0.3, 0.3))
+}
+
+/// Nodes of the integral over slopes.
+struct Rule {
+    deviations: (f64, f64),
+    /// End of the integral in standard deviations.
+    reach: f64,
+    radii: Vec<(f64, f64)>,
+}
+
+impl Rule {
+    fn new(slopes: &dyn SlopeDistribution) -> Self {
+        let deviations = deviations(slopes);
+        let negligible = NEGLIGIBLE * slopes.density(0.0, 0.0);
+        let mut reach = 1.0;
+        while reach < FARTHEST && slopes.density(reach * deviations.0, 0.0) > negligible {
+            reach += 0.25;
+        }
+        Self { deviations, reach, radii: gauss::legendre(RADII, 0.0, 1.0) }
+    }
+
+    fn integrate(
+        &self,
+        at: &Incidence,
+        brdf: &dyn Fn(&Incidence, &Direction) -> Mueller,
+    ) -> [f64; 4] {
+        let mut sum = [0.0; 4];
+        let (least, most) = AZIMUTHS;
+        let (x, y) = self.deviations;
+        let elongation = (x / y).max(y / x).min(2.0);
+        let wanted = least as f64 * elongation * (1.0 + 0.5 * at.sin / at.cos);
+        let azimuths = (wanted as usize).min(most);
+        for j in 0..azimuths {
+            // Not in the plane of incidence, where a shadow function may jump.
+            let psi = TAU * (j as f64 + 0.5) / azimuths as f64;
+            let (x, y) = (self.deviations.0 * psi.cos(), self.deviations.1 * psi.sin());
+            let (c, s) = (at.cos_rotation, at.sin_rotation);
+            // The ray ζ = u(x, y) of the sample in the laboratory.
+            let ray = (x * c - y * s, y * c + x * s);
+            let top = last_upward(ray, at).min(self.reach);
+            let area = self.deviations.0 * self.deviations.1 * TAU / azimuths as f64;
+            for &(u, weight) in &self.radii {
+                let radius = top * u;
+                let Some((direction, measure)) = reflected(at, radius * ray.0, radius * ray.1)
+                else {
+                    continue;
+                };
+                let factor = weight * top * radius * area * measure;
+                let row = brdf(at, &direction).0[0];
+                for (x, value) in sum.iter_mut().zip(row) {
+                    *x += factor * value;
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// The largest u for which facets of slope u·`ray` send the light upwards.
+fn last_upward(ray: (f64, f64), at: &Incidence) -> f64 {
+    // a u² + 2 b u − 1 = 0.
+    let a = ray.0 * ray.0 + ray.1 * ray.1;
+    let b = ray.0 * at.sin / at.cos;
+    let root = (b * b + a).sqrt();
+    if b > 0.0 { 1.0 / (b + root) } else { (root - b) / a }
+}
+
+/// The direction into which a facet of slope (x, y) reflects, and cos θ_s dΩ_s/d²ζ.
+fn reflected(at: &Incidence, x: f64, y: f64) -> Option<(Direction, f64)> {
+    let nz = 1.0 / (1.0 + x * x + y * y).sqrt();
+    // The facet normal is (x, y, 1) n_z, as the BRDF has it.
+    let c = (at.cos - at.sin * x) * nz;
+    let (kx, ky) = (at.sin + 2.0 * c * x * nz, 2.0 * c * y * nz);
+    let kz = 2.0 * c * nz - at.cos;
+    if kz <= 0.0 || c <= 0.0 {
+        return None;
+    }
+    let sin = kx.hypot(ky);
+    let (cos_phi, sin_phi) = if sin > 0.0 { (kx / sin, ky / sin) } else { (1.0, 0.0) };
+    let direction =
+        Direction { theta: sin.atan2(kz), phi: ky.atan2(kx), sin, cos: kz, sin_phi, cos_phi };
+    Some((direction, kz * 4.0 * c * nz * nz * nz))
+}
