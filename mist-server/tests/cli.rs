@@ -75,6 +75,87 @@ fn under_compat_a_second_name_names_the_job() {
     assert!(dir.path().join("job_7.dat").exists() && dir.path().join("job_7.lst").exists());
 }
 
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_asked_to_stop_leaves_no_file() {
+    let dir = folder();
+    let program = "MODEL = Lambertian_BRDF_Model\nVARIABLES:\n\
+        incidentangle = 0 incidentpol = (1,0,0,0) rotation = 0 differential = 1 minsamples = 10\n\
+        a = 0 END\nVARY: FOR a FROM 0 TO 1e8 BY 1 END\nINTEGRALS: R = HEMI END END\n\
+        OUTPUTS: 1 R END\nFILES: END\n";
+    fs::write(dir.path().join("endless.mist"), program).unwrap();
+    let mut run = std::process::Command::new(assert_cmd::cargo::cargo_bin("mist"))
+        .args(["run", "endless.mist"])
+        .current_dir(dir.path())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Its temporary files are there: the run has begun.
+    while fs::read_dir(dir.path()).unwrap().count() < 3 {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let id = run.id().to_string();
+    assert!(std::process::Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
+    assert_eq!(run.wait().unwrap().code(), Some(1));
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn many_programs_have_one_summary_and_the_worst_code() {
+    let dir = folder();
+    let gold = root("examples/gold/gold.mist");
+    fs::write(dir.path().join("empty.mist"), "").unwrap();
+    let mut run = mist(dir.path());
+    let done = run.args(["run", &gold, "empty.mist", "missing.mist"]).assert().code(2);
+    let said = String::from_utf8(done.get_output().stdout.clone()).unwrap();
+    assert!(said.contains("3 programs: 1 good, 0 failed, 2 refused"), "{said}");
+}
+
+#[test]
+fn editors_get_diagnostics_as_json_lines() {
+    let dir = folder();
+    let program = fs::read_to_string(root("examples/gold/gold.mist")).unwrap();
+    fs::write(dir.path().join("a.mist"), program.replace("= f0,f1", "= f9,f1")).unwrap();
+    let mut check = mist(dir.path());
+    let done = check.args(["check", "--message-format", "json", "a.mist"]).assert().code(2);
+    let said = String::from_utf8(done.get_output().stdout.clone()).unwrap();
+    let found: serde_json::Value = serde_json::from_str(said.lines().next().unwrap()).unwrap();
+    assert_eq!((&found["file"], &found["severity"]), (&"a.mist".into(), &"error".into()));
+    assert_eq!(found["help"], "did you mean `f0`?");
+    let line = program.lines().position(|line| line.contains("= f0,f1")).unwrap() + 1;
+    assert_eq!(found["line"].as_u64(), Some(line as u64));
+}
+
+#[test]
+fn a_coloured_table_of_results_is_the_table_of_the_run() {
+    let dir = folder();
+    stdout(mist(dir.path()).args(["run", &root("examples/gold/gold.mist")]));
+    let from = ["table", "--from", "gold.dat", "--wavelength", "wl:nm", "--value", "f0,f1,f2,f3"];
+    stdout(mist(dir.path()).args(from).args(["-o", "again.mtab"]));
+    let read = |name: &str| {
+        rise_bridge::read::mtab(&fs::read_to_string(dir.path().join(name)).unwrap()).unwrap()
+    };
+    let (run, again) = (read("gold.mtab"), read("again.mtab"));
+    assert_eq!(run.rows.len(), again.rows.len());
+    for (a, b) in run.rows.iter().zip(&again.rows) {
+        // The results are printed with six digits.
+        assert!((a.xyz[0][1] - b.xyz[0][1]).abs() < 1e-5 * a.xyz[0][1], "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn colours_of_a_grey_are_grey_and_a_wrong_case_is_named() {
+    let dir = folder();
+    let case = r#"{"id":"grey","wavelengths":[400,500,600,700],"values":[0.2,0.2,0.2,0.2],"illuminant":"D65"}"#;
+    let said = stdout(mist(dir.path()).arg("color").write_stdin(case));
+    let answer: serde_json::Value = serde_json::from_str(&said).unwrap();
+    assert_eq!(answer["results"][0]["id"], "grey");
+    // Y is a sum of weights whose total is 1.
+    assert!((answer["results"][0]["XYZ"][1].as_f64().unwrap() - 0.2).abs() < 1e-14);
+    let said = stderr(mist(dir.path()).arg("color").write_stdin(case.replace("D65", "D66")), 2);
+    assert!(said.contains("grey") && said.contains("illuminant"), "{said}");
+}
+
 #[test]
 fn eval_answers_json_and_refuses_unknown_parameters() {
     let dir = folder();

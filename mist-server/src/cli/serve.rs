@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 
 use super::stop::Stop;
-use crate::{http, report};
+use crate::{http, interrupt, report};
 
 /// Answer renderers over HTTP.
 ///
@@ -33,7 +33,7 @@ pub(super) fn serve(args: &Args) -> Result<(), Stop> {
         axum::serve(listener, http::router(http::App::default()))
             .with_graceful_shutdown(async {
                 // Without a signal handler the process ends at once, which is what was wished.
-                let _ = tokio::signal::ctrl_c().await;
+                let _ = interrupt::asked().await;
             })
             .await
             .map_err(failed)

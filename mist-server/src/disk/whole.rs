@@ -33,11 +33,12 @@ impl WholeFile {
             let reason = format!("there is no folder {}; make it first", folder.display());
             return Err(io::Error::new(io::ErrorKind::NotFound, reason));
         }
-        let file = tempfile::Builder::new()
-            .prefix(".mist-")
-            .suffix(".tmp")
-            .permissions(permissions())
-            .tempfile_in(folder)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".mist-").suffix(".tmp");
+        // What a new file gets before the process's mask: temporary files would be private.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let file = builder.tempfile_in(folder)?;
         Ok(Self { path: path.to_owned(), file: BufWriter::new(file) })
     }
 
@@ -77,12 +78,6 @@ impl Write for WholeFile {
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
     }
-}
-
-/// What a new file gets before the process's mask: temporary files would be private.
-fn permissions() -> fs::Permissions {
-    use std::os::unix::fs::PermissionsExt;
-    fs::Permissions::from_mode(0o666)
 }
 
 #[cfg(test)]
