@@ -56,6 +56,8 @@ pub enum Defect {
     GaussianPhaseSeries,
     /// Slope distributions use constants of twelve digits.
     SlopeConstants,
+    /// The vector interface mirrors the azimuth but not the sample, and is NaN at normal incidence.
+    VectorAzimuth,
     /// `Focussed_Beam` mirrors the azimuth of every ray.
     FocussedMirror,
     /// The cleanliness distribution uses constants of six digits.
@@ -103,6 +105,9 @@ impl Defect {
             Self::AxisymmetricIndex => ("B20", "harmonics above mmax are paired wrongly"),
             Self::GaussianPhaseSeries => {
                 ("-", "the Gaussian phase function is normalized by a series for small widths")
+            }
+            Self::VectorAzimuth => {
+                ("B9", "asked by vectors, a sample with a direction is seen in the wrong place")
             }
             Self::FocussedMirror => {
                 ("-", "a converging beam sees the model mirrored in the plane of incidence")

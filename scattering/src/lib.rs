@@ -39,9 +39,11 @@ pub mod spec;
 pub mod special;
 pub mod stack;
 pub mod tmatrix;
+pub mod vectors;
 
 pub use defect::{Defect, Mode};
 pub use geometry::{Direction, Geometry, Incidence, Side};
 pub use models::{Brdf, Model};
 pub use polarization::{Basis, Jones, Mueller, Stokes};
 pub use spec::{Class, Family, Kind, Node, Param, ParamError, Spec, Value};
+pub use vectors::{Surface, SurfaceError};
