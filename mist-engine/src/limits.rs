@@ -46,7 +46,8 @@ impl Control {
         self.cancel.load(Ordering::Relaxed)
     }
 
-    pub(crate) fn report(&self, fraction: f64) {
+    /// Tells that `fraction` of the run is done.
+    pub fn report(&self, fraction: f64) {
         if let Some(progress) = &self.progress {
             progress(fraction.clamp(0.0, 1.0));
         }

@@ -5,6 +5,8 @@
 //! `.mspd` back and finds every truncation. The text format is described in
 //! `docs/formats/mtab.md`.
 //!
+//! [`mitsuba`] has the frames and the tables of that renderer, [`tensor`] their container.
+//!
 //! ```
 //! # let text = include_str!("../tests/data/orange_paint.mtab");
 //! let table = rise_bridge::read::mtab(text)?;
@@ -15,5 +17,11 @@
 //! ```
 
 mod column;
+pub mod export;
+pub mod goniometer;
+pub mod klems;
+pub mod mitsuba;
 pub mod read;
+pub mod rise;
+pub mod tensor;
 pub mod write;

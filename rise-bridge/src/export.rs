@@ -1,0 +1,7 @@
+//! What every export of a material needs: its models at every wavelength, and reasons to refuse.
+
+mod bands;
+mod error;
+
+pub use bands::Bands;
+pub use error::ExportError;

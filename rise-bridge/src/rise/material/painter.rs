@@ -1,0 +1,150 @@
+//! What painters and scalar slots of a scene say over wavelength.
+
+use mist_engine::Files;
+
+use super::super::scene::Chunk;
+use crate::export::ExportError;
+
+/// A number, or numbers over the wavelength in nm.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Values {
+    /// The same at every wavelength.
+    Flat(f64),
+    /// Linear between these, held beyond them.
+    Over(Vec<(f64, f64)>),
+}
+
+impl Values {
+    /// The value at `nm`.
+    pub(super) fn at(&self, nm: f64) -> f64 {
+        let points = match self {
+            Self::Flat(value) => return *value,
+            Self::Over(points) => points,
+        };
+        let high = points.partition_point(|point| point.0 < nm);
+        match (high.checked_sub(1).and_then(|k| points.get(k)), points.get(high)) {
+            (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (nm - a.0) / (b.0 - a.0),
+            (Some(only), None) | (None, Some(only)) => only.1,
+            (None, None) => 0.0,
+        }
+    }
+
+    /// The wavelengths at which it is given, nm.
+    pub(super) fn nm(&self) -> Vec<f64> {
+        match self {
+            Self::Flat(_) => Vec::new(),
+            Self::Over(points) => points.iter().map(|point| point.0).collect(),
+        }
+    }
+}
+
+/// The scalar that stands in the slot `name` of `chunk`: a number or a `scalar_painter`.
+pub(super) fn scalar(
+    chunk: &Chunk,
+    name: &str,
+    chunks: &[Chunk],
+    files: &dyn Files,
+) -> Result<Option<Values>, ExportError> {
+    let Some(slot) = chunk.get(name) else { return Ok(None) };
+    if let Ok(number) = slot.parse() {
+        return Ok(Some(Values::Flat(number)));
+    }
+    let painter = painter(slot, "scalar_painter", name, chunks)?;
+    if let Some(value) = painter.get("value") {
+        return Ok(Some(Values::Flat(number(name, value)?)));
+    }
+    if let Some(file) = painter.get("file") {
+        return Ok(Some(Values::Over(samples(name, &read(file, files)?)?)));
+    }
+    if let Some(terms) = painter.get("sellmeier") {
+        return Ok(Some(sellmeier(name, terms)?));
+    }
+    let problem = format!("{slot} has none of value, file and sellmeier");
+    Err(ExportError::refused(name, problem))
+}
+
+/// The colour that stands in the slot `name` of `chunk` as reflectance over wavelength.
+pub(super) fn colour(
+    chunk: &Chunk,
+    name: &str,
+    chunks: &[Chunk],
+    files: &dyn Files,
+) -> Result<Option<Values>, ExportError> {
+    let Some(slot) = chunk.get(name).filter(|slot| *slot != "none") else { return Ok(None) };
+    if let Ok(painter) = painter(slot, "uniformcolor_painter", name, chunks) {
+        let words: Vec<&str> = painter.get("color").unwrap_or("1 1 1").split_whitespace().collect();
+        if let [r, g, b] = words[..]
+            && r == g
+            && g == b
+        {
+            return Ok(Some(Values::Flat(number(name, r)?)));
+        }
+        let problem = format!("{slot} is a colour, which is no spectrum: give a spectral_painter");
+        return Err(ExportError::refused(name, problem));
+    }
+    let painter = painter(slot, "spectral_painter", name, chunks)?;
+    if let Some(file) = painter.get("file") {
+        return Ok(Some(Values::Over(samples(name, &read(file, files)?)?)));
+    }
+    let points = painter.lines.iter().filter(|(key, _)| key == "cp").map(|(_, cp)| cp.as_str());
+    let points: Vec<&str> = points.collect();
+    Ok(Some(Values::Over(samples(name, &points.join("\n"))?)))
+}
+
+fn painter<'c>(
+    slot: &str,
+    keyword: &str,
+    name: &str,
+    chunks: &'c [Chunk],
+) -> Result<&'c Chunk, ExportError> {
+    let found = chunks.iter().find(|chunk| chunk.keyword == keyword && chunk.name() == slot);
+    found.ok_or_else(|| {
+        ExportError::refused(name, format!("{slot:?} is no number and no {keyword} of the scene"))
+    })
+}
+
+fn number(name: &str, text: &str) -> Result<f64, ExportError> {
+    let parsed = text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    parsed.ok_or_else(|| ExportError::refused(name, format!("{text:?} is no number")))
+}
+
+fn read(file: &str, files: &dyn Files) -> Result<String, ExportError> {
+    let text = files.read(file).map_err(|error| ExportError::refused(file, error.to_string()))?;
+    Ok(text.to_string())
+}
+
+/// Lines `nm value`, sorted; `#` begins a comment.
+fn samples(name: &str, text: &str) -> Result<Vec<(f64, f64)>, ExportError> {
+    let mut points = Vec::new();
+    for line in text.lines() {
+        let line = line.split('#').next().unwrap_or_default();
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            [] => {}
+            [nm, value, ..] => points.push((number(name, nm)?, number(name, value)?)),
+            _ => return Err(ExportError::refused(name, format!("{line:?} is not nm and value"))),
+        }
+    }
+    points.sort_by(|a: &(f64, f64), b| a.0.total_cmp(&b.0));
+    points.dedup_by(|b, a| a.0 == b.0);
+    if points.is_empty() {
+        return Err(ExportError::refused(name, "it has no samples"));
+    }
+    Ok(points)
+}
+
+/// n = √(1 + Σ B λ²/(λ² − C)), λ in µm, sampled over the visible.
+fn sellmeier(name: &str, terms: &str) -> Result<Values, ExportError> {
+    let terms: Result<Vec<f64>, _> =
+        terms.split_whitespace().map(|word| number(name, word)).collect();
+    let [b1, b2, b3, c1, c2, c3] = terms?[..] else {
+        return Err(ExportError::refused(name, "sellmeier has six numbers: B1 B2 B3 C1 C2 C3"));
+    };
+    let index = |nm: f64| {
+        let l2 = nm * nm * 1e-6;
+        let sum =
+            [(b1, c1), (b2, c2), (b3, c3)].map(|(b, c)| b * l2 / (l2 - c)).iter().sum::<f64>();
+        (1.0 + sum).sqrt()
+    };
+    Ok(Values::Over((36..=83).map(|k| (10.0 * f64::from(k), index(10.0 * f64::from(k)))).collect()))
+}
