@@ -2,11 +2,14 @@
 //!
 //! Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.
 
+mod bridge;
 mod check;
 mod color;
 mod convert;
 mod eval;
+mod export;
 mod fmt;
+mod material;
 mod models;
 mod run;
 mod serve;
@@ -34,6 +37,7 @@ Examples:
   mist check paint.mist               look for mistakes without running
   mist models Facet_BRDF_Model        what a model is and which parameters it has
   mist table paint.json --grid thetai=0:10:80,thetas=0:10:80,phis=0:20:180 --lambda 400:20:700 -o paint.mtab
+  mist export gold.json --wavelengths 450,500,550,600,650 -o gold.pbsdf
   mist serve                          answer renderers on http://127.0.0.1:8650
 
 Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.";
@@ -44,6 +48,8 @@ enum Command {
     Check(check::Args),
     Models(models::Args),
     Table(Box<table::Args>),
+    Export(export::Args),
+    Bridge(bridge::Args),
     Eval(eval::Args),
     Color(color::Args),
     Fmt(fmt::Args),
@@ -61,6 +67,8 @@ pub fn main() -> ExitCode {
         Command::Fmt(args) => fmt::fmt(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Table(args) => table::table(&args),
+        Command::Export(args) => export::export(&args),
+        Command::Bridge(args) => bridge::bridge(&args),
         Command::Eval(args) => eval::eval(&args),
         Command::Serve(args) => serve::serve(&args),
     };

@@ -2,6 +2,7 @@
 
 mod asked;
 mod error;
+mod export;
 mod materials;
 mod table;
 
@@ -42,6 +43,8 @@ pub fn router(app: App) -> Router {
             put(materials::put).get(materials::get).delete(materials::delete),
         )
         .route("/v1/materials/{name}/integrate", post(table::integrate))
+        .route("/v1/materials/{name}/table.pbsdf", get(export::pbsdf))
+        .route("/v1/materials/{name}/table.bsdf", get(export::bsdf))
         .route("/v1/materials/{name}/{file}", get(table::table))
         .layer(DefaultBodyLimit::max(MOST_BYTES))
         .with_state(app)

@@ -3,11 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use mist_engine::{
-    Control, Options,
+    Control,
     colour::ColourTable,
-    compile,
     material::{
-        Material, MaterialError, Prepared,
         query::{self, ColourNames},
         results::{self, Columns},
         table,
@@ -16,19 +14,13 @@ use mist_engine::{
 use rise_bridge::write::Style;
 
 use super::{
+    material::{prepared, refused},
     print,
-    run::{mode, pool},
+    run::pool,
     source::Source,
     stop::Stop,
 };
-use crate::{
-    disk::DiskFiles,
-    interrupt,
-    products::Product,
-    progress::Progress,
-    report::{self, MessageFormat},
-    wanted::Wanted,
-};
+use crate::{disk::DiskFiles, interrupt, products::Product, progress::Progress, wanted::Wanted};
 
 /// Make the colour table of a material, or colour a table of results.
 ///
@@ -168,7 +160,7 @@ impl Args {
     fn computed(&self) -> Result<ColourTable, Stop> {
         let path = self.material.as_deref().unwrap_or(Path::new(""));
         let source = Source::read(path)?;
-        let prepared = self.prepared(path, &source)?;
+        let prepared = prepared(path, &source, self.compat)?;
         let patches = self.patches.as_deref().map(Source::read).transpose()?;
         let wanted = Wanted {
             grid: self.grid.clone(),
@@ -191,34 +183,5 @@ impl Args {
         let made = pool(self.threads)?.install(|| table::table(&prepared, &request, &control));
         progress.finish();
         made.map_err(refused)
-    }
-
-    /// The material, or that of the first step of a program.
-    fn prepared(&self, path: &Path, source: &Source) -> Result<Prepared, Stop> {
-        let files = DiskFiles::beside(path).shared();
-        if source.text.trim_start().starts_with('{') {
-            let material = Material::from_json(&source.text).map_err(refused)?;
-            return material.prepare(mode(self.compat), Some(files)).map_err(refused);
-        }
-        let options = Options { mode: mode(self.compat), job: source.stem(), ..Options::default() };
-        let told = |diagnostics: &[_]| {
-            report::tell(diagnostics, &source.name(), &source.text, MessageFormat::Human);
-            Stop::Said(super::stop::Fate::Refused)
-        };
-        let job = compile(&source.text, files, &options).map_err(|found| told(&found))?;
-        Prepared::of_step(&job).map_err(|failure| match failure {
-            mist_engine::Failure::Program(found) => told(&found),
-            other => Stop::Failed(other.to_string()),
-        })
-    }
-}
-
-fn refused(error: MaterialError) -> Stop {
-    let message = report::with_help(&error.to_string(), error.help());
-    match error {
-        MaterialError::Limit(_) | MaterialError::Cancelled | MaterialError::NotFinite(_) => {
-            Stop::Failed(message)
-        }
-        _ => Stop::Refused(message),
     }
 }

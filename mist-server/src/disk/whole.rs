@@ -47,8 +47,17 @@ impl WholeFile {
     ///
     /// If it cannot be written; an older file of this name is then left as it was.
     pub(crate) fn write(path: &Path, text: &str) -> io::Result<()> {
+        Self::write_bytes(path, text.as_bytes())
+    }
+
+    /// Writes `bytes` to the file `path`, as [`WholeFile::write`] does a text.
+    ///
+    /// # Errors
+    ///
+    /// The same.
+    pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> io::Result<()> {
         let mut file = Self::create(path)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(bytes)?;
         file.finish()
     }
 

@@ -28,7 +28,9 @@ pub(super) async fn table(
 ) -> Result<Response, ApiError> {
     let product =
         Product::of_name(&file).filter(|_| file.starts_with("table.")).ok_or_else(|| {
-            ApiError::NotFound(format!("{file}: ask for table.mtab, .mspd, .json or .svg"))
+            ApiError::NotFound(format!(
+                "{file}: ask for table.mtab, .mspd, .json, .svg, .pbsdf or .bsdf"
+            ))
         })?;
     let kept = app.materials.find(&name)?;
     let wanted = asked.wanted()?;
@@ -60,7 +62,7 @@ async fn answer(
     (wanted, asked): (Wanted, Asked),
 ) -> Result<Response, ApiError> {
     let leash = Leash::default();
-    let control = Control { cancel: leash.0.clone(), progress: None };
+    let control = Control { cancel: leash.flag(), progress: None };
     let work = move || -> Result<String, ApiError> {
         let request = wanted.request(&name, None)?;
         let table = table::table(&kept.prepared, &request, &control)?;
@@ -74,7 +76,14 @@ async fn answer(
 
 /// Stops the work when the answer is not awaited any more, because the client has gone.
 #[derive(Default)]
-struct Leash(Arc<AtomicBool>);
+pub(super) struct Leash(Arc<AtomicBool>);
+
+impl Leash {
+    /// What is set when nobody waits any more.
+    pub(super) fn flag(&self) -> Arc<AtomicBool> {
+        self.0.clone()
+    }
+}
 
 impl Drop for Leash {
     fn drop(&mut self) {
@@ -84,13 +93,18 @@ impl Drop for Leash {
 
 /// Equal requests for equal materials have equal answers, so the tag needs no table.
 fn tag(name: &str, kept: &Kept, product: Product, asked: &Asked) -> String {
+    tag_of(&format!("{name:?} {} {product:?} {asked:?}", kept.hash))
+}
+
+/// The tag of what `request` says, as this version answers it.
+pub(super) fn tag_of(request: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
-    let digest = Sha256::digest(format!("{version} {name:?} {} {product:?} {asked:?}", kept.hash));
+    let digest = Sha256::digest(format!("{version} {request}"));
     format!("\"sha256-{digest:x}\"")
 }
 
 /// Whether the client has what `tag` names: `If-None-Match` is `*` or a list of tags.
-fn is_known(headers: &HeaderMap, tag: &str) -> bool {
+pub(super) fn is_known(headers: &HeaderMap, tag: &str) -> bool {
     let given = headers.get_all(header::IF_NONE_MATCH).iter().filter_map(|v| v.to_str().ok());
     given
         .flat_map(|list| list.split(','))

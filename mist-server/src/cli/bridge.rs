@@ -1,0 +1,129 @@
+//! `mist bridge`: the materials of a RISE scene as tables, and scenes that show them.
+
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use mist_engine::{Control, material::query};
+use rise_bridge::rise::product::{self, Made, Wanted};
+
+use super::{
+    material::{not_exported, refused},
+    print,
+    run::pool,
+    source::Source,
+    stop::Stop,
+};
+use crate::{
+    disk::{DiskFiles, WholeFile},
+    interrupt,
+    progress::Progress,
+};
+
+mod render;
+
+/// Compute the materials of a RISE scene and write the scene with their tables.
+///
+/// Materials are described in comments `# mist: NAME = VALUE` inside their chunks; with --derive
+/// also lambertian_material, cooktorrance_material and ggx_material by RISE's own parameters. For
+/// each one a MIST program over the rings of its table is written and run, and its results become a
+/// .RISEdataBSDF file: docs/formats/rise.md.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist bridge ball.RISEscene --out ball
+  mist bridge ball.RISEscene --derive --bands --wavelengths 400:10:700 --out ball
+  RISE_BIN=/opt/rise/bin/rise mist bridge ball.RISEscene --out ball --render")]
+pub(super) struct Args {
+    /// The scene.
+    scene: PathBuf,
+    /// Folder for programs, tables and scenes.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    out: PathBuf,
+    /// Nodes of each polar angle: 46 are 2 degrees apart.
+    #[arg(long, value_name = "N", default_value_t = 46)]
+    nodes: usize,
+    /// Wavelengths in nm.
+    #[arg(long, value_name = "NM", default_value = "380:10:780")]
+    wavelengths: String,
+    /// Derive models from RISE's own materials too.
+    #[arg(long)]
+    derive: bool,
+    /// Write tables and scenes with three wavelengths in the place of red, green and blue too.
+    #[arg(long)]
+    bands: bool,
+    /// Render the scenes with the program that RISE_BIN names.
+    #[arg(long)]
+    render: bool,
+    /// Threads [default: one per processor].
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+}
+
+/// Makes the files, and the pictures if they are wanted.
+pub(super) fn bridge(args: &Args) -> Result<(), Stop> {
+    let source = Source::read(&args.scene)?;
+    if !(3..=361).contains(&args.nodes) {
+        return Err(Stop::Refused(format!("--nodes is from 3 to 361, not {}", args.nodes)));
+    }
+    let renderer = args.render.then(render::Renderer::of_environment).transpose()?;
+    let wanted = Wanted {
+        nodes: args.nodes,
+        wavelengths: query::nodes("wavelengths", &args.wavelengths).map_err(refused)?,
+        derive: args.derive,
+        bands: args.bands,
+    };
+    let progress = Progress::new(&source.stem());
+    let bar = progress.clone();
+    let control =
+        Control { cancel: interrupt::flag(), progress: Some(Box::new(move |part| bar.set(part))) };
+    let files = DiskFiles::beside(&args.scene).shared();
+    let make = || product::make(&source.text, &source.stem(), &files, &wanted, &control);
+    let made = pool(args.threads)?.install(make);
+    progress.finish();
+    let made = made.map_err(not_exported)?;
+    save(&args.out, &made.files)?;
+    print(&told(&args.out, &made))?;
+    for scene in renderer.iter().flat_map(|_| &made.scenes) {
+        let renderer = renderer.as_ref().expect("there is one for every scene");
+        let text = String::from_utf8_lossy(&made.files[scene]).into_owned();
+        let images = product::images(&text).map_err(not_exported)?;
+        print(&renderer.render(&args.out, scene, &images)?)?;
+    }
+    Ok(())
+}
+
+fn save(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<(), Stop> {
+    let failed = |path: &Path, error: std::io::Error| {
+        Stop::Failed(format!("cannot write {}: {error}", path.display()))
+    };
+    fs::create_dir_all(folder).map_err(|error| failed(folder, error))?;
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        WholeFile::write_bytes(&path, bytes).map_err(|error| failed(&path, error))?;
+    }
+    Ok(())
+}
+
+fn told(folder: &Path, made: &Made) -> String {
+    let mut text = String::new();
+    for (name, table) in &made.tables {
+        let [r, g, b] = table.reflectance();
+        let path = folder.join(name);
+        text += &format!(
+            "{}: {} x {} nodes, reflectance {r:.4} {g:.4} {b:.4}\n",
+            path.display(),
+            table.nodes,
+            table.nodes
+        );
+    }
+    for scene in &made.scenes {
+        text += &format!("{}\n", folder.join(scene).display());
+    }
+    for reason in &made.left {
+        text += &format!("left as it is: {reason}\n");
+    }
+    text
+}

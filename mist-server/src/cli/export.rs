@@ -1,0 +1,166 @@
+//! `mist export`: a material in the formats of renderers.
+
+use std::{
+    fs::File,
+    io,
+    path::{Path, PathBuf},
+};
+
+use mist_engine::{
+    Control,
+    material::{Prepared, query},
+};
+use rise_bridge::{export::ExportError, mitsuba::pbsdf};
+use serde_json::json;
+
+use super::{
+    material::{not_exported, prepared, refused},
+    print,
+    run::pool,
+    source::Source,
+    stop::Stop,
+};
+use crate::{disk::WholeFile, interrupt, progress::Progress};
+
+mod format;
+mod goniometer;
+mod klems;
+mod polarized;
+mod reflection;
+
+use format::Format;
+
+/// Write a material in the format of a renderer, or compare a table of one with it.
+///
+/// A MATERIAL.json is {"model": …, "parameters": {…}, "files": {…}}; of a program the model of
+/// its first step counts. Its wavelength is set to each of --wavelengths. The file appears when it
+/// is whole. docs/formats has a page per format: what is stored, frames, signs, units.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist export gold.json --format pbsdf --wavelengths 450,500,550,600,650 --grid 37x46x91 -o gold.pbsdf
+  mist export gold.json --wavelengths 450,500,550,600,650 --grid auto:2 -o gold.pbsdf
+  mist export gold.json --plugin --wavelengths 400:10:700 -o gold31.pbsdf
+  mist export gold.json --format bsdf --spectral --wavelengths 400:10:700 -o gold.bsdf
+  mist export gold.json --format bsdf --rgb -o gold_rgb.bsdf
+  mist export gold.json --grid thetai=0:15:75,thetas=0:5:85,phis=0:10:180 -o gold.xompt
+  mist export gold.json --compare measured.pbsdf")]
+pub(super) struct Args {
+    /// The material, or a program.
+    material: PathBuf,
+    /// What is written [default: what the name of the output says].
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Wavelengths in nm: a list, FIRST:STEP:LAST, or both mixed [default: 450,500,550,600,650 for
+    /// pbsdf, 360:10:830 for colours, else 400:10:700].
+    #[arg(long, value_name = "NM")]
+    wavelengths: Option<String>,
+    /// Nodes of the table. pbsdf: phi_d x theta_d x theta_h, or auto:PERCENT for the smallest grid
+    /// on which 95 % of the light is nearer than that [37x46x91]. bsdf: theta_i x side of an image
+    /// [24x64], or phi_i x theta_i x side [37x20x48]. Goniometer tables: degrees
+    /// [thetai=0:10:80,thetas=0:5:85,phis=0:10:180].
+    #[arg(long, value_name = "GRID")]
+    grid: Option<String>,
+    /// Even steps of theta_h instead of quadratic ones (pbsdf).
+    #[arg(long)]
+    uniform: bool,
+    /// For our plugin for Mitsuba, which takes any number of wavelengths (pbsdf).
+    #[arg(long)]
+    plugin: bool,
+    /// Linear sRGB under D65 instead of spectra (bsdf).
+    #[arg(long, conflicts_with = "spectral")]
+    rgb: bool,
+    /// Spectra; what bsdf has without --rgb.
+    #[arg(long)]
+    spectral: bool,
+    /// Compare this .pbsdf, measured or computed, with the material; nothing is written.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "format", "grid"])]
+    compare: Option<PathBuf>,
+    /// Give NIST's numbers, its defects included.
+    #[arg(long)]
+    compat: bool,
+    /// Threads [default: one per processor].
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// The file to write.
+    #[arg(short, long, value_name = "FILE", required_unless_present = "compare")]
+    output: Option<PathBuf>,
+}
+
+/// What every writer gets.
+struct Work<'a> {
+    args: &'a Args,
+    material: Prepared,
+    /// nm.
+    wavelengths: Vec<f64>,
+    /// Where the material is from.
+    source: Source,
+    path: &'a Path,
+    control: Control,
+}
+
+impl Work<'_> {
+    /// Where a table with this `quantity` is from, as JSON.
+    fn description(&self, quantity: &str) -> String {
+        let description = json!({
+            "generator": format!("mist {}", env!("CARGO_PKG_VERSION")),
+            "material": self.source.stem(),
+            "quantity": quantity,
+            "compat": self.args.compat,
+        });
+        description.to_string()
+    }
+
+    /// Saves what `write` writes; the file appears when it is whole.
+    fn save(
+        &self,
+        write: impl FnOnce(WholeFile) -> Result<WholeFile, ExportError>,
+    ) -> Result<(), Stop> {
+        let path = self.path.display();
+        let failed = |error: io::Error| Stop::Failed(format!("cannot write {path}: {error}"));
+        let file = WholeFile::create(self.path).map_err(failed)?;
+        write(file).map_err(not_exported)?.finish().map_err(failed)
+    }
+}
+
+/// Writes the file, or compares it.
+pub(super) fn export(args: &Args) -> Result<(), Stop> {
+    let source = Source::read(&args.material)?;
+    let material = prepared(&args.material, &source, args.compat)?;
+    let progress = Progress::new(&source.stem());
+    let bar = progress.clone();
+    let control =
+        Control { cancel: interrupt::flag(), progress: Some(Box::new(move |part| bar.set(part))) };
+    let pool = pool(args.threads)?;
+    let said = match (&args.compare, &args.output) {
+        (Some(table), _) => pool.install(|| compare(&material, table, &control)),
+        (None, Some(path)) => {
+            let format =
+                args.format.or_else(|| Format::of_name(path)).ok_or_else(Format::unknown)?;
+            let usual = format.wavelengths(args);
+            let wavelengths = args.wavelengths.as_deref().unwrap_or(usual);
+            let wavelengths = query::nodes("wavelengths", wavelengths).map_err(refused)?;
+            let work = Work { args, material, wavelengths, source, path, control };
+            pool.install(|| format.write(&work))
+        }
+        (None, None) => Err(Stop::Refused("--output or --compare is needed".into())),
+    };
+    progress.finish();
+    print(&said?)
+}
+
+fn compare(material: &Prepared, path: &Path, control: &Control) -> Result<String, Stop> {
+    let name = path.display();
+    let file = File::open(path).map_err(|e| Stop::Refused(format!("cannot read {name}: {e}")))?;
+    let file = io::BufReader::new(file);
+    let found = pbsdf::compare(file, material, control).map_err(not_exported)?;
+    let mut text = format!(
+        "{name}: {} nodes compared, {} without numbers, {} below the horizon\n\
+         nm\tbrightness\tmean difference\tlargest difference\n",
+        found.compared, found.empty, found.below
+    );
+    for (nm, d) in found.nm.iter().zip(&found.found) {
+        text += &format!("{nm}\t{:.6}\t{:.3e}\t{:.3e}\n", d.brightness, d.mean, d.largest);
+    }
+    Ok(text)
+}

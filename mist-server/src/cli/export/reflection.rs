@@ -1,0 +1,28 @@
+//! `.bsdf` of the RGL.
+
+use rise_bridge::{
+    export::Bands,
+    mitsuba::bsdf::{self, Channels, Size},
+};
+
+use super::{Stop, Work, not_exported};
+
+/// Viewers and pixels of a table for which no grid was asked: isotropic, and not.
+const GRIDS: [&str; 2] = ["24x64", "37x20x48"];
+
+/// Writes the table and tells about it.
+pub(super) fn write(work: &Work<'_>) -> Result<String, Stop> {
+    let bands = Bands::new(&work.material, &work.wavelengths).map_err(not_exported)?;
+    let usual = GRIDS[usize::from(!bands.is_isotropic())];
+    let size = Size::parse(work.args.grid.as_deref().unwrap_or(usual)).map_err(not_exported)?;
+    let channels = if work.args.rgb { Channels::Rgb } else { Channels::Spectra };
+    let description = work.description("BRDF times the cosine of the light, 1/sr");
+    work.save(|file| bsdf::write(&bands, channels, size, &description, file, &work.control))?;
+    let what = match channels {
+        Channels::Rgb => "linear sRGB".to_owned(),
+        Channels::Spectra => format!("{} wavelengths", bands.nm().len()),
+    };
+    let Size { phi_i, theta_i, side } = size;
+    let path = work.path.display();
+    Ok(format!("{path}: {phi_i}x{theta_i} viewers, {side}x{side} pixels, {what}\n"))
+}
