@@ -39,7 +39,8 @@ def directions(phi_d, theta_d, theta_h):
 
 
 def geometry(l, v):
-    """The angles that `mist eval` takes."""
-    azimuth = np.arctan2(v[1], v[0]) - np.arctan2(-l[1], -l[0])
+    """The angles that `mist eval` takes; the x axis of the frame is that of the sample."""
+    forward = np.arctan2(-l[1], -l[0])
     polar = [float(np.arctan2(np.hypot(w[0], w[1]), w[2])) for w in (l, v)]
-    return {"theta_i": polar[0], "theta_s": polar[1], "phi_s": float(azimuth)}
+    return {"theta_i": polar[0], "theta_s": polar[1],
+            "phi_s": float(np.arctan2(v[1], v[0]) - forward), "rotation": float(-forward)}

@@ -5,6 +5,9 @@ import mitsuba as mi
 
 from polarized import METAL, random_pairs
 
+RIDGES = {"model": "Facet_BRDF_Model", "parameters": {
+    "substrate": "(0.7,2.4)", "sdf": "Anisotropic_Gaussian_Slope_Distribution_Function",
+    "sdf.sigmax": 0.15, "sdf.sigmay": 0.35}}
 SPECTRAL = [400 + 10 * k for k in range(31)]
 
 
@@ -29,7 +32,19 @@ def albedo(bsdf, theta, count=20000):
     return total / count
 
 
+def ridges(mist, report):
+    """A material that changes when the sample is turned."""
+    mi.set_variant("scalar_spectral")
+    path, _ = mist.export(RIDGES, "ridges.bsdf", "--wavelengths", "500,550", "--grid", "37x20x64")
+    bsdf = mi.load_dict({"type": "measured", "filename": path})
+    pairs = random_pairs(600, 5, lowest=0.2)
+    exact = mist.plane(RIDGES, pairs, 550)[:, 0, 0] * [l[2] for l, _ in pairs]
+    errors = np.abs([value(bsdf, l, v, 550) for l, v in pairs] - exact)
+    report("bsdf of ridges, sum of differences over sum", errors.sum() / exact.sum(), 0.02)
+
+
 def check(mist, report):
+    ridges(mist, report)
     for variant, words in [
         ("scalar_spectral", ["--spectral", "--wavelengths", ",".join(map(str, SPECTRAL))]),
         ("scalar_rgb", ["--rgb"]),
