@@ -132,6 +132,11 @@ impl Region {
         }
     }
 
+    /// Whether NIST's program takes a polygon for it ([`Apertures::Nist`]).
+    pub(crate) fn is_round(&self) -> bool {
+        matches!(self, Self::Circle { .. } | Self::Hemi | Self::Annulus { .. })
+    }
+
     /// The region with the larger circle of an annulus as its outer one.
     ///
     /// The centre of polarization goes along, so it is read before.

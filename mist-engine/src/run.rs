@@ -11,10 +11,11 @@ use crate::{
     limits::Meter,
     listing,
     output::{Outputs, Sink, Stream, head},
+    region::Apertures,
     replay::Replay,
     sampling::Layout,
     share::Shared,
-    step::Step,
+    step::{Integral, Step},
 };
 
 /// Steps that are replayed before they are evaluated together.
@@ -161,6 +162,9 @@ impl<'a> Runner<'a> {
             }
         }
         self.summary.met.extend(self.shared.take_met());
+        if block.iter().flat_map(|step| &step.integrals).any(is_cut_by_nist) {
+            self.summary.met.insert(Defect::PolygonHorizon);
+        }
         Ok(())
     }
 }
@@ -187,6 +191,11 @@ impl Runner<'_> {
         }
         Ok(all)
     }
+}
+
+/// Whether the aperture is the true one of a shape for which NIST's program takes a polygon.
+fn is_cut_by_nist(integral: &Integral) -> bool {
+    integral.sampling.apertures == Apertures::Exact && integral.region.is_round()
 }
 
 /// A fault of the first step is a fault of the program; a later one ends the run.

@@ -40,6 +40,10 @@ pub enum Defect {
     PyramidLines,
     /// Kubelka–Munk overflows to NaN for opaque layers.
     KubelkaOverflow,
+    /// An index is read up to where its text stops being a number, and loses its first dots.
+    ///
+    /// Noted by who reads the text.
+    IndexText,
     /// Sums over `Diffuse_Subsurface` sources fail for absorbing substrates.
     SumAbsorbing,
     /// A loss of 10⁻¹⁰ is added to the tangential index of light from the substrate side.
@@ -50,12 +54,20 @@ pub enum Defect {
     GradedFilmGrid,
     /// `Diffuse_Subsurface` recycles light by a 0.2° rectangle sum.
     RecyclingSum,
+    /// Cones and the hemisphere are polygons that leave out directions at the horizon.
+    ///
+    /// Noted by who integrates.
+    PolygonHorizon,
     /// Axisymmetric particles with mmax < lmax pair harmonics wrongly.
     AxisymmetricIndex,
+    /// Bodies of revolution in free space forget the azimuth of the incident light.
+    IncidentAzimuth,
     /// The Gaussian phase function is normalized by a truncated series.
     GaussianPhaseSeries,
     /// Slope distributions use constants of twelve digits.
     SlopeConstants,
+    /// Light along the normal has s = ŷ where bases are changed, whatever its azimuth.
+    NormalBasis,
     /// The vector interface mirrors the azimuth but not the sample, and is NaN at normal incidence.
     VectorAzimuth,
     /// `Focussed_Beam` mirrors the azimuth of every ray.
@@ -91,6 +103,7 @@ impl Defect {
             Self::ZernikePower => ("B6", "the wavelength power 3 is computed as 2"),
             Self::PyramidLines => ("B6", "the triangular pyramid's spectrum vanishes on two lines"),
             Self::KubelkaOverflow => ("B7", "an opaque Kubelka-Munk layer gives nan"),
+            Self::IndexText => ("B8", "the text of an index is read as another index or file"),
             Self::SumAbsorbing => {
                 ("B11", "a sum over an absorbing Diffuse_Subsurface source fails")
             }
@@ -102,9 +115,18 @@ impl Defect {
                 ("B17", "a graded film of a table and a constant is tabulated too coarsely")
             }
             Self::RecyclingSum => ("B18", "the recycled light is a sum over steps of 0.2 degrees"),
+            Self::PolygonHorizon => {
+                ("B19", "cones and the hemisphere are polygons that leave out directions")
+            }
             Self::AxisymmetricIndex => ("B20", "harmonics above mmax are paired wrongly"),
+            Self::IncidentAzimuth => {
+                ("-", "a body of revolution that is turned sees its light from the wrong azimuth")
+            }
             Self::GaussianPhaseSeries => {
                 ("-", "the Gaussian phase function is normalized by a series for small widths")
+            }
+            Self::NormalBasis => {
+                ("-", "the basis of light along the normal does not follow its azimuth")
             }
             Self::VectorAzimuth => {
                 ("B9", "asked by vectors, a sample with a direction is seen in the wrong place")
@@ -124,9 +146,13 @@ impl Defect {
 }
 
 impl Defect {
-    /// Whether it changes results by more than 10⁻⁹ somewhere; sound runs do not mention others.
+    /// Whether it changes results by more than 10⁻⁹ in more than single directions; sound runs do
+    /// not mention others.
     pub fn is_noticeable(self) -> bool {
-        !matches!(self, Self::FacetRetro | Self::TinyLoss | Self::SlopeConstants)
+        !matches!(
+            self,
+            Self::FacetRetro | Self::NormalBasis | Self::TinyLoss | Self::SlopeConstants
+        )
     }
 }
 

@@ -6,6 +6,11 @@
 
 use glam::DVec3;
 
+use crate::{
+    Mode,
+    polarization::{Beams, is_normal},
+};
+
 /// The four angles of one evaluation, in radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Geometry {
@@ -86,6 +91,11 @@ impl Incidence {
         DVec3::new(self.sin, 0.0, -self.cos)
     }
 
+    /// s of the beam: ŷ.
+    pub fn s(&self) -> DVec3 {
+        DVec3::Y
+    }
+
     /// A lateral vector of the laboratory (slope, spatial frequency) as the sample sees it.
     pub fn to_sample(&self, x: f64, y: f64) -> (f64, f64) {
         (
@@ -124,6 +134,19 @@ impl Direction {
     pub fn k(&self) -> DVec3 {
         DVec3::new(self.sin * self.cos_phi, self.sin * self.sin_phi, self.cos)
     }
+
+    /// s of the beam: ẑ × k of positive polar angles at its azimuth, which is the limit of them
+    /// for a beam along the normal.
+    pub fn s(&self) -> DVec3 {
+        DVec3::new(-self.sin_phi, self.cos_phi, 0.0)
+    }
+
+    /// s of the beam as NIST's library takes it from k: ŷ along the normal, whatever the azimuth
+    /// ([`Defect::NormalBasis`](crate::Defect::NormalBasis)).
+    pub(crate) fn nists_s(&self) -> DVec3 {
+        let k = self.k();
+        if is_normal(k) { DVec3::Y } else { self.s() }
+    }
 }
 
 impl Geometry {
@@ -136,6 +159,16 @@ impl Geometry {
     pub fn direction(&self) -> Direction {
         Direction::new(self.theta_s, self.phi_s)
     }
+}
+
+/// The beams of an event on `side`, for a change of basis.
+pub(crate) fn beams(side: Side, incidence: &Incidence, direction: &Direction, mode: Mode) -> Beams {
+    let (k_i, k_s) = propagation(side, incidence, direction);
+    let s = match mode {
+        Mode::Sound => direction.s(),
+        Mode::Compat => direction.nists_s(),
+    };
+    Beams { k: [k_i, k_s], s: [incidence.s(), s] }
 }
 
 /// Propagation vectors (incident, scattered) with the z components that belong to `side`.

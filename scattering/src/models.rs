@@ -1,11 +1,10 @@
 //! The BRDF models, one file each, and the one way to ask them.
 
-use glam::DVec3;
 use num_complex::Complex64;
 
 use crate::{
-    Basis, Direction, Geometry, Incidence, Jones, Mueller, Node, ParamError, Side,
-    geometry::propagation,
+    Basis, Direction, Geometry, Incidence, Jones, Mode, Mueller, Node, ParamError, Side,
+    geometry::beams,
     polarization::change_basis,
     spec::{self, Family, Member, Param, Spec},
 };
@@ -153,7 +152,7 @@ impl Member for dyn Brdf {
 ///
 /// What its parameters get wrong.
 pub fn build(node: &Node) -> Result<Model, ParamError> {
-    spec::build::<dyn Brdf>(node).map(Model::from)
+    Ok(Model::new(spec::build::<dyn Brdf>(node)?, node.mode))
 }
 
 /// The model `name` inside `node`, which must see the light of its parent on the same substrate.
@@ -183,15 +182,16 @@ pub fn nested(node: &Node, name: &str, parent: &Common) -> Result<Box<dyn Brdf>,
 /// A prepared model with the horizon and the bases: what users of models hold.
 pub struct Model {
     brdf: Box<dyn Brdf>,
-}
-
-impl From<Box<dyn Brdf>> for Model {
-    fn from(brdf: Box<dyn Brdf>) -> Self {
-        Self { brdf }
-    }
+    /// How bases are changed.
+    mode: Mode,
 }
 
 impl Model {
+    /// The model `brdf`, which was built in `mode`.
+    pub fn new(brdf: Box<dyn Brdf>, mode: Mode) -> Self {
+        Self { brdf, mode }
+    }
+
     /// What every model has.
     pub fn common(&self) -> &Common {
         self.brdf.common()
@@ -239,8 +239,7 @@ impl Model {
         }
         let side = self.common().side;
         for (m, d) in out.iter_mut().zip(directions) {
-            let (k_i, k_s): (DVec3, DVec3) = propagation(side, inc, d);
-            *m = change_basis(*m, from, to, k_i, k_s);
+            *m = change_basis(*m, from, to, &beams(side, inc, d, self.mode));
         }
     }
 }

@@ -5,7 +5,8 @@ mod jones;
 mod mueller;
 mod stokes;
 
-pub use basis::{Basis, Frame, change_basis, perp};
+pub(crate) use basis::is_normal;
+pub use basis::{Basis, Beams, Frame, change_basis, perp};
 pub use jones::Jones;
 pub use mueller::Mueller;
 pub use stokes::Stokes;

@@ -61,12 +61,6 @@ fn monte_carlo(case: &Case, results: &str) -> Result<(), String> {
 /// Programs that are wrong on a disk only: the tests of the command line run them.
 const ABOUT_THE_DISK: &[&str] = &["v_err_files_unwritable"];
 
-/// Programs that do not agree yet; the list only shrinks: one that passes fails the test.
-///
-/// `v_dint_tmatrix`: NIST's amplitudes of an oblique body of revolution in free space differ from
-/// ours by more than the body's own light; the body is nearly a sphere, and ours agree with one.
-const NOT_YET: &[&str] = &["v_dint_tmatrix"];
-
 fn all_pass(area: impl Fn(&str) -> bool + Sync) {
     let cases: Vec<Case> = corpus::cases(&corpus::folder())
         .into_iter()
@@ -76,11 +70,7 @@ fn all_pass(area: impl Fn(&str) -> bool + Sync) {
     let failures: Vec<String> = cases
         .par_iter()
         .filter_map(|case| {
-            let why = match (judge(case), NOT_YET.contains(&case.name.as_str())) {
-                (Ok(()), false) | (Err(_), true) => return None,
-                (Ok(()), true) => "passes: take it from NOT_YET".to_owned(),
-                (Err(why), false) => why,
-            };
+            let why = judge(case).err()?;
             Some(format!("{} ({}): {why}", case.name, case.area))
         })
         .collect();

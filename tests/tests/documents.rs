@@ -105,6 +105,24 @@ fn defects() -> Vec<String> {
 }
 
 #[test]
+fn every_defect_has_the_tests_that_the_page_on_accuracy_names() {
+    let page = document("docs/accuracy.md");
+    let rows: Vec<Vec<&str>> = page
+        .lines()
+        .map(|line| line.split('|').map(|cell| cell.trim().trim_matches('`')).collect::<Vec<_>>())
+        .filter(|cells| cells.len() == 6 && cells[3].ends_with(".rs"))
+        .collect();
+    for number in [1, 3, 4, 6, 7, 8, 9, 11, 13, 14, 17, 18, 19, 20] {
+        assert!(rows.iter().any(|cells| cells[1] == format!("B{number}")), "B{number} has no row");
+    }
+    for cells in rows {
+        let test = format!("#[test]\n    fn {}()", cells[4]).replace("    ", "");
+        let source = document(cells[3]).replace("    ", "");
+        assert!(source.contains(&test), "{} has no test {}", cells[3], cells[4]);
+    }
+}
+
+#[test]
 fn tests_that_documents_name_are_there() {
     for name in [
         "README.md",

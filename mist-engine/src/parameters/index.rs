@@ -5,7 +5,7 @@ use std::{
     sync::Arc,
 };
 
-use mist_format::number::whole_number;
+use mist_format::{Dialect, number::whole_number, optics::IndexText};
 use scattering::optics::{Index, Table};
 
 use super::{Context, SetError, source::Source, table::TableState};
@@ -18,6 +18,8 @@ pub(crate) struct IndexState {
     k: TableState,
     /// What NIST's library still remembers for its last wavelength.
     held: Option<Held>,
+    /// Whether NIST's library reads another index or file in the text.
+    misread: bool,
 }
 
 /// A value that outlives a change of interpolation, as long as the wavelength stays.
@@ -46,13 +48,15 @@ impl IndexState {
             n: TableState::of_values(text, values.clone(), 2),
             k: TableState::of_values(text, values, 3),
             held: None,
+            misread: false,
         }
     }
 
     /// Reads the text of optical constants.
     pub(crate) fn read(text: &str, context: &Context<'_>) -> Result<Self, SetError> {
         let (source, column) = Source::of_index(text, context)?;
-        Self::of_source(text, source, column, context)
+        let misread = is_misread(text);
+        Ok(Self { misread, ..Self::of_source(text, source, column, context)? })
     }
 
     pub(crate) fn of_source(
@@ -63,7 +67,7 @@ impl IndexState {
     ) -> Result<Self, SetError> {
         let n = TableState::new(text, source.clone(), column, context)?;
         let k = TableState::new(text, source, column + 1, context)?;
-        Ok(Self { n, k, held: None })
+        Ok(Self { n, k, held: None, misread: false })
     }
 
     /// Sets a sub-parameter: `n`, `k`, or one that both tables have.
@@ -114,6 +118,11 @@ impl IndexState {
         }
     }
 
+    /// Whether NIST's library reads another index or file in the text.
+    pub(crate) fn is_misread(&self) -> bool {
+        self.misread
+    }
+
     pub(crate) fn value(&self) -> Index {
         let (n, k) = (self.n.value(), self.k.value());
         match self.held {
@@ -122,6 +131,15 @@ impl IndexState {
                 Index { n: still(n, held.lambda, held.n), k: still(k, held.lambda, held.k) }
             }
         }
+    }
+}
+
+/// Whether NIST's library reads another number or file name than is written.
+fn is_misread(text: &str) -> bool {
+    let read = |dialect| IndexText::parse(text, dialect).ok();
+    match (read(Dialect::Sound), read(Dialect::Compat)) {
+        (Some(IndexText::Formula { .. }), Some(IndexText::Formula { .. })) => false,
+        (sound, nists) => sound != nists,
     }
 }
 

@@ -11,7 +11,7 @@ use mist_format::{
     suggestion::did_you_mean,
 };
 use scattering::{
-    Family, Kind, Mode, Param, Value,
+    Defect, Family, Kind, Mode, Param, Value,
     spec::{self, Met},
 };
 
@@ -163,7 +163,12 @@ impl Slot {
             Self::Integer(i) => Value::Integer(*i),
             Self::Text(text) | Self::File { text, .. } => Value::Text(text.clone()),
             Self::Formula(formula) => Value::Formula(formula.function()),
-            Self::Index(index) => Value::Index(index.value()),
+            Self::Index(index) => {
+                if index.is_misread() && mode == Mode::Sound {
+                    met.lock().expect("no build panics").insert(Defect::IndexText);
+                }
+                Value::Index(index.value())
+            }
             Self::Table(table) => Value::Table(table.value()),
             Self::Films(films) => Value::Films(films.value()),
             Self::Member(object) => Value::Member(Arc::new(object.node(mode, met))),

@@ -54,7 +54,8 @@ pub fn perp(a: DVec3, b: DVec3) -> DVec3 {
     a.cross(DVec3::Y).normalize()
 }
 
-fn is_normal(k: DVec3) -> bool {
+/// Whether a beam counts as one along the normal.
+pub(crate) fn is_normal(k: DVec3) -> bool {
     k.x.abs() <= PARALLEL && k.y.abs() <= PARALLEL
 }
 
@@ -62,6 +63,11 @@ impl Frame {
     /// (s, p) of the beam `k`: s = ẑ × k normalized, p = k × s; s = ŷ along the normal.
     pub fn psps(k: DVec3) -> Self {
         let s = if is_normal(k) { DVec3::Y } else { perp(DVec3::Z, k) };
+        Self { first: s, second: perp(k, s) }
+    }
+
+    /// (s, p) of the beam `k` whose s is given.
+    pub fn with_s(k: DVec3, s: DVec3) -> Self {
         Self { first: s, second: perp(k, s) }
     }
 
@@ -84,15 +90,6 @@ impl Frame {
         Self { first: across, second: perp(k, across) }
     }
 
-    /// The frame of `basis` for the beam `k`, one of the pair `k_i`, `k_s`.
-    pub fn of(basis: Basis, k: DVec3, k_i: DVec3, k_s: DVec3) -> Self {
-        match basis {
-            Basis::Psps => Self::psps(k),
-            Basis::Xyxy => Self::xyxy(k),
-            Basis::Plane => Self::plane(k, k_i, k_s),
-        }
-    }
-
     /// Jones matrix that takes field components in `self` to components in `new`.
     pub fn to(&self, new: &Self) -> Jones {
         Jones::real(
@@ -104,12 +101,33 @@ impl Frame {
     }
 }
 
-/// The matrix `m`, given in basis `from`, in basis `to`, for the beams `k_i` and `k_s`.
-pub fn change_basis(m: Mueller, from: Basis, to: Basis, k_i: DVec3, k_s: DVec3) -> Mueller {
+/// The two beams of an event: where they go, and their s, which k alone does not tell where it
+/// lies along the normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beams {
+    /// Propagation of the incident and of the scattered beam.
+    pub k: [DVec3; 2],
+    /// s of both.
+    pub s: [DVec3; 2],
+}
+
+impl Beams {
+    /// The frames of `basis` for both beams.
+    fn frames(&self, basis: Basis) -> [Frame; 2] {
+        let [k_i, k_s] = self.k;
+        match basis {
+            Basis::Psps => [Frame::with_s(k_i, self.s[0]), Frame::with_s(k_s, self.s[1])],
+            Basis::Xyxy => self.k.map(Frame::xyxy),
+            Basis::Plane => self.k.map(|k| Frame::plane(k, k_i, k_s)),
+        }
+    }
+}
+
+/// The matrix `m`, given in basis `from`, in basis `to`, for these beams.
+pub fn change_basis(m: Mueller, from: Basis, to: Basis, beams: &Beams) -> Mueller {
     if from == to {
         return m;
     }
-    let incoming = Frame::of(to, k_i, k_i, k_s).to(&Frame::of(from, k_i, k_i, k_s));
-    let outgoing = Frame::of(from, k_s, k_i, k_s).to(&Frame::of(to, k_s, k_i, k_s));
-    outgoing.mueller() * m * incoming.mueller()
+    let ([from_i, from_s], [to_i, to_s]) = (beams.frames(from), beams.frames(to));
+    from_s.to(&to_s).mueller() * m * to_i.to(&from_i).mueller()
 }

@@ -3,6 +3,10 @@
 //! The axis is z; the pole θ = 0 of the shape is at −z, as for a particle on a surface. See
 //! [`tmatrix`](crate::tmatrix) and [`waves`](crate::tmatrix::waves).
 //!
+//! The amplitudes depend on the difference of the azimuths of both beams about the axis. NIST's
+//! library takes the azimuth of the scattered beam alone ([`Defect::IncidentAzimuth`]): right only
+//! for light that travels in the half plane of azimuth 0.
+//!
 //! P. C. Waterman, Phys. Rev. D 3, 825 (1971).
 
 use std::f64::consts::TAU;
@@ -12,7 +16,7 @@ use num_complex::Complex64;
 
 use super::{FREE_SPACE, Scatterer, Surroundings};
 use crate::{
-    Jones, Node,
+    Defect, Jones, Node,
     polarization::Frame,
     shape::Shape,
     spec::{Class, Laws, ParamError, Spec},
@@ -42,6 +46,8 @@ pub struct Axisymmetric {
     around: Surroundings,
     particle: TMatrix,
     harmonics: Harmonics,
+    /// The incident light counts as if it travelled at azimuth 0.
+    forgets_azimuth: bool,
 }
 
 impl Axisymmetric {
@@ -51,7 +57,8 @@ impl Axisymmetric {
         let index = around.relative_index(node, "particle")?;
         let particle = tmatrix::read(node, &shape, index, around.wave_number())?;
         let harmonics = Harmonics::new(particle.l_max, particle.m_max());
-        Ok(Self { around, particle, harmonics })
+        let forgets_azimuth = node.reproduces(Defect::IncidentAzimuth);
+        Ok(Self { around, particle, harmonics, forgets_azimuth })
     }
 }
 
@@ -68,7 +75,8 @@ impl Scatterer for Axisymmetric {
         let (incoming, outgoing) = (Polar::new(k_in), Polar::new(k_out));
         let regular = waves::regular(&self.harmonics, &Beam::free(incoming.cos, incoming.sin));
         let scattered = Outgoing::symmetric(self.particle.answer(&regular).into_iter());
-        let turn = outgoing.azimuth - incoming.azimuth;
+        let from = if self.forgets_azimuth { 0.0 } else { incoming.azimuth };
+        let turn = outgoing.azimuth - from;
         let azimuth = (turn.cos(), turn.sin());
         let beam = Beam::free(outgoing.cos, outgoing.sin);
         let j = scattered.amplitude(&self.harmonics, &beam, azimuth);
@@ -119,15 +127,21 @@ impl TMatrix {
 
 #[cfg(test)]
 mod tests {
+    use glam::DMat3;
+
     use super::*;
     use crate::{Mode, Value, spec};
 
     fn particle(vertical: f64, horizontal: f64) -> Box<dyn Scatterer> {
+        built(vertical, horizontal, Mode::Sound)
+    }
+
+    fn built(vertical: f64, horizontal: f64, mode: Mode) -> Box<dyn Scatterer> {
         let shape = Node::with_defaults(&crate::shape::ellipsoid::SPEC.class, Mode::Sound)
             .with("vertical", Value::Number(vertical))
             .and_then(|node| node.with("horizontal", Value::Number(horizontal)))
             .unwrap();
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
+        let node = Node::with_defaults(&SPEC.class, mode)
             .with("Shape", Value::Member(shape.into()))
             .unwrap();
         spec::build::<dyn Scatterer>(&node).unwrap()
@@ -172,5 +186,19 @@ mod tests {
         // T is symmetric up to the multipoles that are cut off.
         let difference = largest(&forth, &expected) / forth.ss.norm();
         assert!(difference < 1e-5, "{difference:e}");
+    }
+    #[test]
+    fn turning_both_beams_about_the_axis_changes_nothing_but_under_compat() {
+        let (a, b) = (DVec3::new(0.6, 0.0, -0.8), DVec3::new(0.48, 0.64, 0.6));
+        let turn = DMat3::from_rotation_z(0.7);
+        for (mode, kept) in [(Mode::Sound, true), (Mode::Compat, false)] {
+            let body = built(0.15, 0.1, mode);
+            let (here, there) = (jones(&*body, a, b), jones(&*body, turn * a, turn * b));
+            let difference = largest(&here, &there) / here.ss.norm();
+            assert_eq!(difference < 1e-12, kept, "{mode:?}: {difference:e}");
+            // Light at azimuth 0 meets no defect.
+            let sound = jones(&*built(0.15, 0.1, Mode::Sound), a, b);
+            assert!(largest(&here, &sound) < 1e-15 * sound.ss.norm());
+        }
     }
 }

@@ -134,6 +134,18 @@ fn entire_cosine_integral(y: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Mode, Node, spec};
+
+    #[test]
+    fn forward_light_has_the_phase_of_mie_soundly_and_the_opposite_in_compat() {
+        let forward = |mode| {
+            let particle =
+                spec::build::<dyn Scatterer>(&Node::with_defaults(&SPEC.class, mode)).unwrap();
+            particle.round().unwrap().amplitudes(1.0).pp
+        };
+        let (sound, compat) = (forward(Mode::Sound), forward(Mode::Compat));
+        assert!(sound.im < 0.0 && (sound + compat).norm() < 1e-15 * sound.norm());
+    }
 
     #[test]
     fn the_closed_form_and_the_integral_meet() {

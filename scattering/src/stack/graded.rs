@@ -43,10 +43,14 @@ pub const SPEC: Spec<Stack> = Spec {
     build: |node| graded(node).map(Box::new),
 };
 
+/// Films of which a gradient can be made; more do not change what light sees.
+const MOST_STEPS: i32 = 10_000;
+
 fn graded(node: &Node) -> Result<Stack, ParamError> {
     let steps = node.integer("steps");
-    if steps < 2 {
-        return Err(ParamError::new("steps", format!("{steps} is less than 2")));
+    if !(2..=MOST_STEPS).contains(&steps) {
+        let problem = format!("{steps} is not from 2 to {MOST_STEPS}");
+        return Err(ParamError::new("steps", problem));
     }
     let thickness = check_thickness("thickness", node.number("thickness"))? / f64::from(steps);
     let (start, end) = (node.index("start"), node.index("end"));

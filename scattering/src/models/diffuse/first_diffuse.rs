@@ -20,7 +20,7 @@ use glam::DVec3;
 
 use super::{INTERFACE, interface};
 use crate::{
-    Direction, Incidence, Mueller, Node, ParamError,
+    Defect, Direction, Incidence, Mueller, Node, ParamError,
     models::{Brdf, COMMON, Common},
     optics::film::Films,
     polarization::{Frame, perp},
@@ -65,6 +65,8 @@ pub struct FirstDiffuse {
     albedo: f64,
     linear_loss: f64,
     circular_loss: f64,
+    /// s of a beam along the normal is ŷ.
+    normal_is_y: bool,
 }
 
 impl FirstDiffuse {
@@ -84,6 +86,7 @@ impl FirstDiffuse {
             phase,
             linear_loss: node.number("depoll"),
             circular_loss: node.number("depolc"),
+            normal_is_y: node.reproduces(Defect::NormalBasis),
         })
     }
 
@@ -96,10 +99,10 @@ impl FirstDiffuse {
     }
 
     /// The part inside: R_out P R_in between two directions inside.
-    fn scattered(&self, k_i: DVec3, k_s: DVec3) -> Mueller {
+    fn scattered(&self, k_i: DVec3, k_s: DVec3, s: DVec3) -> Mueller {
         let across = perp(k_i, k_s);
-        let into = Turn::new(k_i, across);
-        let out = Turn::new(k_s, across);
+        let into = Turn::new(k_i, DVec3::Y, across);
+        let out = Turn::new(k_s, s, across);
         out.after(into.before(self.phase.at_cosine(k_i.dot(k_s).clamp(-1.0, 1.0))))
     }
 
@@ -112,7 +115,8 @@ impl FirstDiffuse {
         let k_i = DVec3::new(sin_i / self.n, 0.0, -mu_i);
         let sin_s = direction.sin / self.n;
         let k_s = DVec3::new(sin_s * direction.cos_phi, sin_s * direction.sin_phi, mu_s);
-        let mut m = t_s * self.scattered(k_i, k_s) * *t_i * (self.albedo / sum);
+        let s = if self.normal_is_y { direction.nists_s() } else { direction.s() };
+        let mut m = t_s * self.scattered(k_i, k_s, s) * *t_i * (self.albedo / sum);
         self.depolarize(&mut m, mu_s / sum, mu_i / sum);
         m
     }
@@ -161,8 +165,8 @@ struct Turn {
 }
 
 impl Turn {
-    fn new(k: DVec3, across: DVec3) -> Self {
-        let frame = Frame::psps(k);
+    fn new(k: DVec3, s: DVec3, across: DVec3) -> Self {
+        let frame = Frame::with_s(k, s);
         let along = k.cross(across);
         let (c, d) = (along.dot(frame.first), along.dot(frame.second));
         Self { cos: c * c - d * d, sin: 2.0 * c * d }
@@ -233,7 +237,8 @@ mod tests {
     #[test]
     fn turning_into_and_out_of_the_scattering_plane_is_its_own_inverse() {
         let k = DVec3::new(0.48, 0.6, 0.64);
-        let turn = Turn::new(k, perp(k, DVec3::new(0.3, -0.2, -0.9)));
+        let s = perp(DVec3::Z, k);
+        let turn = Turn::new(k, s, perp(k, DVec3::new(0.3, -0.2, -0.9)));
         let p = Mueller::from_row_major(std::array::from_fn(|j| (j as f64).sin()));
         assert!((turn.after(turn.after(p)) - p).largest() < 1e-15);
         assert!((turn.before(turn.before(p)) - p).largest() < 1e-15);

@@ -30,7 +30,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = Common::read(node)?;
-        let model = Model::from(models::nested(node, "model", &common)?);
+        let model = Model::new(models::nested(node, "model", &common)?, node.mode);
         Ok(Box::new(FiniteAperture { common, model, points: disk::points(node)? }))
     },
 };

@@ -10,7 +10,7 @@
 //!
 //! NIST's library mirrors the azimuth of every ray before it asks the model, so that the elements
 //! that mix I and Q with U and V have the opposite sign of those of a parallel beam
-//! ([`Defect::FocussedMirror`]).
+//! ([`Defect::FocussedMirror`]); a ray along the normal is NaN in it.
 //!
 //! T. A. Germer and C. C. Asmail, *Goniometric optical scatter instrument for out-of-plane
 //! ellipsometry measurements*, Rev. Sci. Instrum. 70, 3688 (1999).
@@ -40,7 +40,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = Common::read(node)?;
-        let model = Model::from(models::nested(node, "model", &common)?);
+        let model = Model::new(models::nested(node, "model", &common)?, node.mode);
         let focal_point = node.number("focal_point");
         if !focal_point.is_finite() {
             return Err(ParamError::new("focal_point", format!("{focal_point} is not finite")));
@@ -89,6 +89,10 @@ impl FocussedBeam {
         let azimuth = if self.mirrored { -azimuth } else { azimuth };
         let direction = Direction::new(theta, azimuth);
         let mut m = [Mueller::ZERO];
+        if self.mirrored && ray.incidence.sin == 0.0 {
+            *out += Mueller([[f64::NAN; 4]; 4]);
+            return;
+        }
         self.model.evaluate(&ray.incidence, &[direction], Basis::Psps, &mut m);
         let side = self.common.side;
         // From psps to xyxy of the ray's own plane of incidence, then to that of the laboratory.
@@ -156,6 +160,18 @@ mod tests {
         let q = Mueller::diagonal([1.0, 1.0, -1.0, -1.0]);
         assert!((q * a * q - b).largest() < 1e-6 * a.largest());
         assert!((a - b).largest() > 0.1 * a.largest());
+    }
+
+    #[test]
+    fn a_ray_along_the_normal_is_nan_in_compat_only() {
+        let at = Geometry { theta_i: 0.0, theta_s: 0.5, phi_s: 2.0, rotation: 0.0 };
+        for (mode, is_finite) in [(Mode::Sound, true), (Mode::Compat, false)] {
+            // The third rule has a point in the middle of the cone.
+            let node = Node::with_defaults(&super::SPEC.class, mode);
+            let node = node.with("alpha", Value::Number(1.0)).unwrap();
+            let m = models::build(&node).unwrap().mueller(&at, Basis::Psps);
+            assert_eq!(m.0.iter().flatten().all(|x| x.is_finite()), is_finite, "{mode:?}");
+        }
     }
 
     #[test]

@@ -24,7 +24,7 @@ use num_complex::Complex64;
 
 use super::{
     LOCAL,
-    paths::{Bounce, ORIENTATION, Paths, Placed, nudged},
+    paths::{Beam, Bounce, ORIENTATION, Paths, Placed, nudged},
     small_sphere::not_negative,
 };
 use crate::{
@@ -130,6 +130,8 @@ pub(super) struct Above {
     /// Wave number in vacuum.
     k0: f64,
     nudges: bool,
+    /// s of a beam along the normal is ŷ.
+    normal_is_y: bool,
 }
 
 impl Above {
@@ -144,6 +146,7 @@ impl Above {
             n: common.substrate.re,
             k0: TAU / common.lambda,
             nudges: node.reproduces(Defect::Nudge),
+            normal_is_y: node.reproduces(Defect::NormalBasis),
             common,
         })
     }
@@ -165,11 +168,10 @@ impl Above {
         let outgoing = self.outside(s.sin, s.cos, side.to_below())?;
         let along = |sin: f64, x: f64, y: f64, z: f64| DVec3::new(sin * x, sin * y, z);
         let up = |up: bool, cos: f64| if up { cos } else { -cos };
-        let mut paths = Paths::new(
-            along(incoming.sin, 1.0, 0.0, up(side.from_below(), incoming.cos)),
-            along(outgoing.sin, s.cos_phi, s.sin_phi, up(!side.to_below(), outgoing.cos)),
-            self.k0,
-        );
+        let k_i = along(incoming.sin, 1.0, 0.0, up(side.from_below(), incoming.cos));
+        let k_s = along(outgoing.sin, s.cos_phi, s.sin_phi, up(!side.to_below(), outgoing.cos));
+        let s_out = if self.normal_is_y { s.nists_s() } else { s.s() };
+        let mut paths = Paths::new(Beam::new(k_i, i.s()), Beam::new(k_s, s_out), self.k0);
         if side.from_below() {
             paths.t_in = self.films.t21(self.films.kappa_inside(i.sin));
         } else {

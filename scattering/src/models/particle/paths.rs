@@ -35,9 +35,9 @@ pub(super) struct Beam {
 }
 
 impl Beam {
-    /// The beam along `k` with the vectors of psps.
-    pub(super) fn new(k: DVec3) -> Self {
-        Self { k, frame: Frame::psps(k) }
+    /// The beam along `k` with this s.
+    pub(super) fn new(k: DVec3, s: DVec3) -> Self {
+        Self { k, frame: Frame::with_s(k, s) }
     }
 
     /// The beam mirrored at the face: the same s, p = k × s.
@@ -103,11 +103,11 @@ pub(super) struct Paths {
 
 impl Paths {
     /// Paths that cross no face and bounce nowhere, scattered in a medium of wave number `k`.
-    pub(super) fn new(incoming: DVec3, outgoing: DVec3, k: f64) -> Self {
+    pub(super) fn new(incoming: Beam, outgoing: Beam, k: f64) -> Self {
         let one = Pair { s: Complex64::ONE, p: Complex64::ONE };
         Self {
-            incoming: Beam::new(incoming),
-            outgoing: Beam::new(outgoing),
+            incoming,
+            outgoing,
             before: None,
             after: None,
             t_in: one,

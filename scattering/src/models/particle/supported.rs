@@ -216,11 +216,7 @@ impl Supported {
         };
         // A negative polar angle stands for the azimuth on the other side.
         let side = if (direction.theta < 0.0) != (incidence.theta < 0.0) { -1.0 } else { 1.0 };
-        let azimuth = match sin {
-            // psps has a fixed s along the normal.
-            0.0 => (1.0, 0.0),
-            _ => (side * direction.cos_phi, side * direction.sin_phi),
-        };
+        let azimuth = (side * direction.cos_phi, side * direction.sin_phi);
         let area = ground.density / (incidence.cos * direction.cos).abs();
         let j = excited.amplitude(&self.outgoing, &beam, azimuth).scaled(area.sqrt() / ground.k);
         if ground.flips { j.flipped() } else { j }

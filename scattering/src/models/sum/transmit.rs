@@ -56,7 +56,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = Common::read(node)?;
-        let model = Model::from(models::nested(node, "model", &common)?);
+        let model = Model::new(models::nested(node, "model", &common)?, node.mode);
         let films = node.member::<Stack>("films")?.at(common.lambda);
         let films = Films::new(&films, Complex64::ONE, common.substrate, common.lambda);
         Ok(Box::new(Transmit { common, model, films, index: common.substrate.re }))

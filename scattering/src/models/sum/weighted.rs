@@ -6,8 +6,8 @@
 //! ([`Defect::SumAbsorbing`]); compat refuses at once.
 
 use crate::{
-    Basis, Defect, Direction, Incidence, Jones, Mueller, Node, ParamError,
-    geometry::propagation,
+    Basis, Defect, Direction, Incidence, Jones, Mode, Mueller, Node, ParamError,
+    geometry::beams,
     models::{Brdf, Common},
     polarization::change_basis,
     spec::{Family, Param},
@@ -95,13 +95,14 @@ fn check_same(sum: &Common, source: &Common, name: &str) -> Result<(), ParamErro
 pub(super) struct Weighted {
     pub(super) common: Common,
     pub(super) sources: Vec<Source>,
+    mode: Mode,
 }
 
 impl Weighted {
     /// The incoherent sum of `count` sources.
     pub(super) fn read(node: &Node, count: usize) -> Result<Self, ParamError> {
         let common = Common::read(node)?;
-        Ok(Self { common, sources: Source::read_all(node, &common, count)? })
+        Ok(Self { common, sources: Source::read_all(node, &common, count)?, mode: node.mode })
     }
 
     fn to_psps(
@@ -115,8 +116,8 @@ impl Weighted {
         if from == Basis::Psps {
             return m;
         }
-        let (k_i, k_s) = propagation(self.common.side, incidence, direction);
-        change_basis(m, from, Basis::Psps, k_i, k_s)
+        let beams = beams(self.common.side, incidence, direction, self.mode);
+        change_basis(m, from, Basis::Psps, &beams)
     }
 }
 
