@@ -35,7 +35,7 @@ impl Default for App {
 
 /// The service, without a socket.
 pub fn router(app: App) -> Router {
-    Router::new()
+    let router = Router::new()
         .route("/healthz", get(async || "ok\n"))
         .route("/v1/materials", get(materials::list))
         .route(
@@ -43,9 +43,6 @@ pub fn router(app: App) -> Router {
             put(materials::put).get(materials::get).delete(materials::delete),
         )
         .route("/v1/materials/{name}/integrate", post(table::integrate))
-        .route("/v1/materials/{name}/table.pbsdf", get(export::pbsdf))
-        .route("/v1/materials/{name}/table.bsdf", get(export::bsdf))
-        .route("/v1/materials/{name}/{file}", get(table::table))
-        .layer(DefaultBodyLimit::max(MOST_BYTES))
-        .with_state(app)
+        .route("/v1/materials/{name}/{file}", get(table::table));
+    export::routes(router).layer(DefaultBodyLimit::max(MOST_BYTES)).with_state(app)
 }

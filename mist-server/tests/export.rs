@@ -130,6 +130,19 @@ async fn the_service_gives_the_tables_by_one_url_and_knows_its_tags() {
         let again = ask(again.body(Body::empty()).unwrap()).await;
         assert_eq!(again.status(), StatusCode::NOT_MODIFIED);
     }
+    for (file, begins) in [
+        ("table.RISEdataBSDF?nodes=4&lambda=450:100:650&filter=p", &[0xdf, 0x0b, 0, 0][..]),
+        ("table.xompt?thetai=0&thetas=0:40:80&phis=0", b"{\"metadata\""),
+        ("table.astm?thetai=0&thetas=0:40:80&phis=0", b"PROGRAM"),
+        ("table.csv?thetai=0&thetas=0:40:80&phis=0", b"generator,"),
+        ("table.xml?lambda=400:100:700", b"<?xml"),
+    ] {
+        let uri = format!("/v1/materials/metal/{file}");
+        let answer = ask(Request::get(uri).body(Body::empty()).unwrap()).await;
+        assert_eq!(answer.status(), StatusCode::OK, "{file}");
+        let bytes = to_bytes(answer.into_body(), 1 << 24).await.unwrap();
+        assert!(bytes.starts_with(begins), "{file}");
+    }
     for wrong in
         ["table.pbsdf?grid=5x4", "table.pbsdf?lambda=400:50:700", "table.bsdf?grid=4000x4000"]
     {

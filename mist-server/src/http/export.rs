@@ -1,11 +1,13 @@
-//! Tables for Mitsuba by one URL: `.pbsdf` with Mueller matrices, `.bsdf` with reflection.
+//! Tables for renderers and optics programs by one URL, as `mist export` writes them.
 
 use std::sync::Arc;
 
 use axum::{
+    Router,
     extract::{Path, Query, State, rejection::QueryRejection},
     http::{HeaderMap, StatusCode, header},
     response::{IntoResponse, Response},
+    routing::get,
 };
 use mist_engine::{
     Control,
@@ -13,11 +15,14 @@ use mist_engine::{
 };
 use rise_bridge::{
     export::{Bands, ExportError},
+    goniometer::{self, Axes, Form},
+    klems,
     mitsuba::{
-        axes::Axes,
+        axes,
         bsdf::{self, Channels, Size},
         pbsdf,
     },
+    rise::{material::Filter, product},
 };
 use serde::Deserialize;
 use serde_json::json;
@@ -46,26 +51,37 @@ pub(super) struct Asked {
     plugin: u8,
     /// Colours in the place of spectra (`.bsdf`).
     rgb: u8,
+    /// Polar angles of incidence, degrees (goniometer tables).
+    thetai: Option<String>,
+    /// Polar angles of scattering, degrees (goniometer tables).
+    thetas: Option<String>,
+    /// Azimuths, degrees (goniometer tables).
+    phis: Option<String>,
+    /// Nodes of each polar angle (`.RISEdataBSDF`).
+    nodes: Option<usize>,
+    /// `s` or `p`: behind a filter (`.RISEdataBSDF`).
+    filter: Option<String>,
 }
 
-/// `GET /v1/materials/{name}/table.pbsdf`
-pub(super) async fn pbsdf(
-    state: State<App>,
-    path: Path<String>,
-    asked: Result<Query<Asked>, QueryRejection>,
-    headers: HeaderMap,
-) -> Result<Response, ApiError> {
-    answer(state, path, asked, headers, ("pbsdf", polarized)).await
-}
+/// The tables by the extension of their files.
+const FORMATS: [(&str, Make); 7] = [
+    ("pbsdf", polarized),
+    ("bsdf", reflection),
+    ("RISEdataBSDF", rings),
+    ("xompt", |name, kept, asked, control| {
+        directions(Form::OpenMaterial, name, kept, asked, control)
+    }),
+    ("astm", |name, kept, asked, control| directions(Form::Astm, name, kept, asked, control)),
+    ("csv", |name, kept, asked, control| directions(Form::Ocean, name, kept, asked, control)),
+    ("xml", patches),
+];
 
-/// `GET /v1/materials/{name}/table.bsdf`
-pub(super) async fn bsdf(
-    state: State<App>,
-    path: Path<String>,
-    asked: Result<Query<Asked>, QueryRejection>,
-    headers: HeaderMap,
-) -> Result<Response, ApiError> {
-    answer(state, path, asked, headers, ("bsdf", reflection)).await
+/// `GET /v1/materials/{name}/table.{pbsdf|bsdf|RISEdataBSDF|xompt|astm|csv|xml}`
+pub(super) fn routes(router: Router<App>) -> Router<App> {
+    FORMATS.into_iter().fold(router, |router, format| {
+        let one = move |state, path, asked, headers| answer(state, path, asked, headers, format);
+        router.route(&format!("/v1/materials/{{name}}/table.{}", format.0), get(one))
+    })
 }
 
 /// Makes the bytes of a table.
@@ -99,7 +115,7 @@ fn polarized(
     control: &Control,
 ) -> Result<Vec<u8>, ExportError> {
     let nm = wavelengths(asked, "450,500,550,600,650")?;
-    let axes = Axes::parse(asked.grid.as_deref().unwrap_or("37x46x91"), asked.uniform != 0)?;
+    let axes = axes::Axes::parse(asked.grid.as_deref().unwrap_or("37x46x91"), asked.uniform != 0)?;
     fits(axes.nodes().saturating_mul(nm.len() * 64))?;
     let bands = pbsdf::bands(&kept.prepared, &nm, asked.plugin == 0)?;
     pbsdf::write(&bands, &axes, &description(name), Vec::new(), control)
@@ -120,6 +136,56 @@ fn reflection(
     let size = Size::parse(asked.grid.as_deref().unwrap_or(grid))?;
     fits(size.phi_i * size.theta_i * size.side * size.side * 4 * (bands.nm().len() + 1))?;
     bsdf::write(&bands, channels, size, &description(name), Vec::new(), control)
+}
+
+/// Most nodes of a table over rings.
+const MOST_NODES: usize = 181;
+
+fn rings(_: &str, kept: &Kept, asked: &Asked, control: &Control) -> Result<Vec<u8>, ExportError> {
+    let filter = match asked.filter.as_deref() {
+        None => None,
+        Some("s") => Some(Filter::S),
+        Some("p") => Some(Filter::P),
+        Some(_) => return Err(ExportError::refused("filter", "expected s or p")),
+    };
+    let nodes = asked.nodes.unwrap_or(46);
+    if nodes > MOST_NODES {
+        let problem = format!("{nodes}, more than {MOST_NODES}");
+        return Err(ExportError::refused("nodes", problem));
+    }
+    let nm = wavelengths(asked, "380:10:780")?;
+    Ok(product::table_of(&kept.prepared, filter, nodes, &nm, control)?.bytes())
+}
+
+fn directions(
+    form: Form,
+    name: &str,
+    kept: &Kept,
+    asked: &Asked,
+    control: &Control,
+) -> Result<Vec<u8>, ExportError> {
+    let axis = |part: &str, given: &Option<String>, usual: &str| {
+        query::nodes(part, given.as_deref().unwrap_or(usual))
+    };
+    let axes = Axes {
+        thetai: axis("thetai", &asked.thetai, "0:10:80")?,
+        thetas: axis("thetas", &asked.thetas, "0:5:85")?,
+        phis: axis("phis", &asked.phis, "0:10:180")?,
+    };
+    let bands = Bands::new(&kept.prepared, &wavelengths(asked, "400:10:700")?)?;
+    // A number has about 20 characters.
+    fits(axes.directions().saturating_mul(bands.nm().len() * 20 + 80))?;
+    goniometer::write(&bands, &axes, form, name, Vec::new(), control)
+}
+
+fn patches(
+    name: &str,
+    kept: &Kept,
+    asked: &Asked,
+    control: &Control,
+) -> Result<Vec<u8>, ExportError> {
+    let bands = Bands::new(&kept.prepared, &wavelengths(asked, "360:10:830")?)?;
+    klems::write(&bands, name, Vec::new(), control)
 }
 
 fn wavelengths(asked: &Asked, usual: &str) -> Result<Vec<f64>, ExportError> {

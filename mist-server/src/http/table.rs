@@ -29,7 +29,7 @@ pub(super) async fn table(
     let product =
         Product::of_name(&file).filter(|_| file.starts_with("table.")).ok_or_else(|| {
             ApiError::NotFound(format!(
-                "{file}: ask for table.mtab, .mspd, .json, .svg, .pbsdf or .bsdf"
+                "{file}: ask for table.mtab, .mspd, .json, .svg, .pbsdf, .bsdf, .RISEdataBSDF, .xompt, .astm, .csv or .xml"
             ))
         })?;
     let kept = app.materials.find(&name)?;

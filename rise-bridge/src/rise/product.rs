@@ -13,7 +13,7 @@ use std::{
 
 use mist_engine::{
     Control, FileError, Files, Limits, MemoryFiles, MemorySink, Options,
-    colour::ColourTable,
+    colour::{ColourRow, ColourTable},
     compile,
     material::{
         Prepared,
@@ -117,7 +117,8 @@ fn one(
     made.add(&shown.plain, RingTable::new(nodes, rgb)?);
     if let Some(filter) = material.filter {
         let file = format!("{name}_pol.RISEdataBSDF");
-        made.add(&file, filtered(&run.prepared, filter, wanted, control)?);
+        let (nodes, nm) = (wanted.nodes, &wanted.wavelengths);
+        made.add(&file, table_of(&run.prepared, Some(filter), nodes, nm, control)?);
         shown.filtered = Some(file);
     }
     if wanted.bands {
@@ -221,24 +222,30 @@ impl Ran {
     }
 }
 
-/// The table behind a filter that follows s and p, twice as bright, so that unpolarized light
-/// keeps its brightness.
-fn filtered(
+/// The table of a material, without a program: means over rings by Gauss's rule. Behind a filter
+/// that follows s and p it is twice as bright, so that unpolarized light keeps its brightness.
+///
+/// # Errors
+///
+/// As the colour table of a material; for fewer than three nodes.
+pub fn table_of(
     material: &Prepared,
-    filter: Filter,
-    wanted: &Wanted,
+    filter: Option<Filter>,
+    nodes: usize,
+    wavelengths: &[f64],
     control: &Control,
 ) -> Result<RingTable, ExportError> {
-    let nodes: Vec<f64> =
-        (0..wanted.nodes).map(|k| 90.0 * k as f64 / (wanted.nodes - 1) as f64).collect();
-    let mut thetai = nodes.clone();
+    if nodes < 3 {
+        return Err(ExportError::refused("nodes", "a table has three nodes or more"));
+    }
+    let thetas: Vec<f64> = (0..nodes).map(|k| 90.0 * k as f64 / (nodes - 1) as f64).collect();
     // As in the program: the row of the horizon is that of 89°.
-    thetai.iter_mut().for_each(|theta| *theta = theta.min(89.0));
-    let grid = GridRequest { thetai, thetas: nodes, phis: vec![0.0], patch: GridPatch::Ring };
+    let thetai = thetas.iter().map(|theta| theta.min(89.0)).collect();
+    let grid = GridRequest { thetai, thetas, phis: vec![0.0], patch: GridPatch::Ring };
     let request = TableRequest {
         material: String::new(),
         what: What::Grid(grid),
-        wavelengths: wanted.wavelengths.clone(),
+        wavelengths: wavelengths.to_vec(),
         settings: ColourNames::default().settings(None)?,
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
@@ -248,11 +255,14 @@ fn filtered(
     };
     let own = Control { cancel: control.cancel.clone(), progress: None };
     let table = table::table(material, &request, &own)?;
-    let sign = if filter == Filter::S { 1.0 } else { -1.0 };
-    let behind = |row: &mist_engine::colour::ColourRow| {
-        into_gamut(std::array::from_fn(|c| row.rgb[0][c] + sign * row.rgb[1][c]))
+    let sign = match filter {
+        None => 0.0,
+        Some(Filter::S) => 1.0,
+        Some(Filter::P) => -1.0,
     };
-    RingTable::new(wanted.nodes, table.rows.iter().map(behind).collect())
+    let behind =
+        |row: &ColourRow| into_gamut(std::array::from_fn(|c| row.rgb[0][c] + sign * row.rgb[1][c]));
+    RingTable::new(nodes, table.rows.iter().map(behind).collect())
 }
 
 /// The scenes that show the tables.
