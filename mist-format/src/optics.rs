@@ -19,6 +19,12 @@ pub enum OpticsError {
     /// There is no text.
     #[error("the text is empty")]
     Empty,
+    /// A parenthesis that holds no n and k.
+    #[error("`{text}` is no (n,k)")]
+    Pair {
+        /// The text.
+        text: String,
+    },
     /// A formula `@v:…` that is no expression.
     #[error("the formula `{text}` is no expression: {error}")]
     Formula {
@@ -28,7 +34,7 @@ pub enum OpticsError {
         error: ExprError,
     },
     /// A thickness that is no number, or a material without one.
-    #[error("invalid thickness parameter for dielectric_stack: `{text}`")]
+    #[error("{}", thickness_problem(text))]
     Thickness {
         /// What stands there; empty if nothing does.
         text: String,
@@ -51,10 +57,18 @@ pub enum OpticsError {
     },
 }
 
+fn thickness_problem(text: &str) -> String {
+    match text {
+        "" => "the last material has no thickness".into(),
+        text => format!("the thickness `{text}` is no number, or negative"),
+    }
+}
+
 impl OpticsError {
     /// What to write instead.
     pub fn help(&self) -> &'static str {
         match self {
+            Self::Pair { .. } => "write (n,k) with two numbers and no blanks, such as (1.5,0.01)",
             Self::Empty => "write a number, (n,k), the name of a file, or a formula @x:n,k",
             Self::Formula { .. } => "write @x:n,k with expressions of x, the wavelength in µm",
             Self::Thickness { .. } => {

@@ -1,29 +1,10 @@
 //! Printing and reading again; nothing that is read makes the reader panic.
 
-use mist_format::expr::{Expr, NoNames, Stack};
-use mist_format::number::PrintfFormat;
-use mist_format::optics::{IndexText, StackText, TableText};
-use mist_format::table::{ColumnTable, FormulaFile, ListTable};
+mod laws;
+
 use mist_format::{Dialect, program};
 use proptest::prelude::*;
 use std::path::Path;
-
-/// Reads, prints and reads a text, if it is a program; asserts the laws of printing.
-fn assert_stable(text: &str, dialect: Dialect) {
-    let Ok(program) = program::parse(text, dialect) else { return };
-    let printed = program.to_string();
-    let again = program::parse(&printed, dialect)
-        .unwrap_or_else(|found| panic!("{found:?}\nin\n{printed}\nfrom\n{text}"));
-    assert_eq!(again.to_string(), printed, "printing is stable, from\n{text}");
-    let count = (again.comments.len(), program.comments.len());
-    assert_eq!(count.0, count.1, "comments are kept, from\n{text}");
-    let (mut again, mut program) = (again.without_places(), program.without_places());
-    // A comment inside an entry moves to a line of its own.
-    for comment in again.comments.iter_mut().chain(&mut program.comments) {
-        comment.own_line = true;
-    }
-    assert_eq!(again, program);
-}
 
 #[test]
 fn the_conformance_programs_are_printed_and_read_again() {
@@ -32,8 +13,7 @@ fn the_conformance_programs_are_printed_and_read_again() {
         for file in std::fs::read_dir(folder.path()).into_iter().flatten().flatten() {
             if file.path().extension().is_some_and(|ext| ext == "mist") {
                 let text = std::fs::read_to_string(file.path()).unwrap();
-                assert_stable(&text, Dialect::Compat);
-                assert_stable(&text, Dialect::Sound);
+                laws::program(&text);
             }
         }
     }
@@ -116,37 +96,31 @@ fn likely_program() -> impl Strategy<Value = String> {
 proptest! {
     #[test]
     fn likely_programs_are_printed_and_read_again(text in likely_program()) {
-        assert_stable(&text, Dialect::Compat);
-        assert_stable(&text, Dialect::Sound);
+        laws::program(&text);
     }
 
     #[test]
     fn reading_never_panics(text in soup()) {
-        for dialect in [Dialect::Compat, Dialect::Sound] {
-            assert_stable(&text, dialect);
-            assert_stable(&format!("MODEL=m VARIABLES: {text}"), dialect);
-            let _ = Expr::compile(&text, dialect).map(|e| e.eval(&mut NoNames, &mut Stack::default()));
-            let _ = IndexText::parse(&text, dialect);
-            let _ = StackText::parse(&text, dialect);
-            let _ = StackText::parse_file(&text, dialect);
-            let _ = TableText::parse(&text, dialect);
-            let _ = ColumnTable::parse(&text, dialect).map(|table| table.look_up(0.5, 2));
-            let _ = ListTable::parse(&text, dialect).map(|list| list.cell(0, 0).len());
-        }
-        let _ = Expr::compile_library(&text);
-        let _ = FormulaFile::parse(&text);
-        let _ = PrintfFormat::parse(&text).map(|format| format.format(1.0));
+        laws::program(&text);
+        laws::program(&format!("MODEL=m VARIABLES: {text}"));
+        laws::expression(&text);
+        laws::table(&text);
+        laws::optics(&text);
+        laws::stack(&text);
+        laws::archive(text.as_bytes());
     }
 
     #[test]
     fn what_the_sound_dialect_computes_nist_computes_alike(text in "[-+*/^()1x,. 2e&<]{0,16}") {
-        let value = |dialect| {
-            let expr = Expr::compile(&text, dialect).ok()?;
-            expr.eval(&mut NoNames, &mut Stack::default()).ok()
-        };
-        if let Some(sound) = value(Dialect::Sound) {
-            let compat = value(Dialect::Compat).expect("it computes more, not less");
-            prop_assert_eq!(sound.to_text(), compat.to_text());
-        }
+        laws::expression(&text);
     }
+}
+
+#[test]
+fn what_fuzzing_found_keeps_to_the_laws() {
+    laws::optics("g+1)!18446744073709551615");
+    laws::optics("gold.txt!18446744073709551615");
+    laws::stack("(1.446,0 .002");
+    laws::stack("(1.446,0) .002 (1.5 .1");
+    laws::table("zz\n1\n");
 }

@@ -1,5 +1,7 @@
 //! What is written can be read again, and what is not whole is refused.
 
+mod laws;
+
 use mist_engine::colour::{Albedo, Axis, ColourRow, ColourTable, Layout, Patch, Symmetry};
 use rise_bridge::{
     read::{self, ReadError},
@@ -187,4 +189,25 @@ fn the_picture_shows_every_swatch_and_every_curve() {
     assert_eq!(svg.matches("<polyline").count(), 12);
     assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
     assert!(!svg.contains("NaN"), "{svg}");
+}
+
+#[test]
+fn whatever_is_read_is_written_and_read_again() {
+    let table = full();
+    let grid = write::mtab(&table, EXACT).unwrap();
+    for text in [ORANGE, &grid] {
+        laws::mtab(text);
+        // Every line left out, doubled, or with its first number changed.
+        for line in text.split_inclusive('\n') {
+            laws::mtab(&text.replacen(line, "", 1));
+            laws::mtab(&text.replacen(line, &line.repeat(2), 1));
+            for word in ["-1e300", "nan", "inf", "1e-320", "0"] {
+                let changed = line.replacen(|c: char| c.is_ascii_digit(), word, 1);
+                laws::mtab(&text.replacen(line, &changed, 1));
+            }
+        }
+    }
+    // Control characters in a header become blanks.
+    laws::mtab(&ORANGE.replace("sprague hold", "sprague\0hold"));
+    laws::mspd(&write::mspd(&table, 0, EXACT).unwrap());
 }

@@ -57,7 +57,12 @@ impl IndexText {
             let (text, quirk) = (text.to_owned(), Quirk::IndexPrefix);
             return Err(OpticsError::Refused { text, reading, quirk });
         }
-        Self::table(whole, dialect)
+        match Self::table(whole, dialect)? {
+            Self::File { name, .. } if name.starts_with('(') => {
+                Err(OpticsError::Pair { text: whole.to_owned() })
+            }
+            read => Ok(read),
+        }
     }
 
     fn table(text: &str, dialect: Dialect) -> Result<Self, OpticsError> {
@@ -193,6 +198,10 @@ mod tests {
         for text in ["1.5+0.3", "1.5,0.2", "a b"] {
             let error = IndexText::parse(text, Dialect::Sound).unwrap_err();
             assert!(matches!(error, OpticsError::Refused { .. }), "{text}");
+        }
+        for text in ["(1.446,0", "(n,k)"] {
+            let error = IndexText::parse(text, Dialect::Sound).unwrap_err();
+            assert!(matches!(error, OpticsError::Pair { .. }), "{text}: {error:?}");
         }
         assert!(IndexText::parse("", Dialect::Sound).is_err());
         assert!(IndexText::parse("", Dialect::Compat).is_err());

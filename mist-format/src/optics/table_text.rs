@@ -47,7 +47,9 @@ impl TableText {
             return Ok(Self::Formula { variable: variable.into(), columns });
         }
         let parts = word.rsplit_once('!');
-        let numbered = parts.and_then(|(name, column)| Some((name, column.parse().ok()?)));
+        // Four bytes: the columns behind it can be counted, too.
+        let number = |column: &str| column.parse::<u32>().ok().map(|column| column as usize);
+        let numbered = parts.and_then(|(name, column)| Some((name, number(column)?)));
         Ok(match numbered {
             Some((name, column)) => Self::File { name: name.into(), column: Some(column) },
             None => Self::File { name: word.into(), column: None },
@@ -77,6 +79,8 @@ mod tests {
         assert_eq!(parse("gold.txt"), file("gold.txt", None));
         assert_eq!(parse("gold.txt!4"), file("gold.txt", Some(4)));
         assert_eq!(parse("wow!.txt"), file("wow!.txt", None));
+        let huge = "gold.txt!18446744073709551615";
+        assert_eq!(parse(huge), file(huge, None));
         match parse("@w:sqrt(w)+1,if(w>0.5,0.1,0)") {
             TableText::Formula { variable, columns } => {
                 assert_eq!(variable, "w");

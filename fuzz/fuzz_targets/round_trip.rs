@@ -1,0 +1,7 @@
+//! Texts that are nearly programs: printing and reading again loses nothing.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use mist_fuzz::{laws, likely};
+
+fuzz_target!(|bytes: &[u8]| laws::program(&likely::program(bytes)));
