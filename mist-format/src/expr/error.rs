@@ -222,12 +222,18 @@ impl EvalError {
                 }))
             }
             EvalErrorKind::UnknownFunction { name, .. } => found("expr/unknown-function").help_if(
-                Function::find(name).map(usage).or_else(|| did_you_mean(name, functions())),
+                Function::find(name)
+                    .map(usage)
+                    .or_else(|| did_you_mean(name, functions()))
+                    .or_else(|| Some("docs/language.md lists the functions".into())),
             ),
             EvalErrorKind::FileArguments { file, .. } => {
                 found("expr/file-arguments").help(format!("write @{file}(x), or @{file}(x,column)"))
             }
-            EvalErrorKind::Table { .. } => found("expr/table"),
+            EvalErrorKind::Table { .. } => found("expr/table").help(
+                "files are looked for in the working folder, beside the program and along \
+                 SCATMECH; lines of numbers are a table",
+            ),
             EvalErrorKind::Vector { quirk } => {
                 let (nist, instead) = explain(*quirk);
                 found("expr/quirk").help(instead).note(nist)

@@ -95,6 +95,31 @@ impl ColorKey {
     pub fn find(word: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|key| key.name().eq_ignore_ascii_case(word))
     }
+
+    /// Whether its value may be several words without quotes, as in `patch = circle 2`; names
+    /// need quotes where they have blanks.
+    pub(super) fn takes_words(self) -> bool {
+        match self {
+            Self::Wavelength
+            | Self::Spectrum
+            | Self::Space
+            | Self::Filter
+            | Self::Thetai
+            | Self::Thetas
+            | Self::Phis
+            | Self::Omega
+            | Self::Patch
+            | Self::Material => true,
+            Self::Quantity
+            | Self::Illuminant
+            | Self::Observer
+            | Self::Adaptation
+            | Self::Table
+            | Self::Spectra
+            | Self::Json
+            | Self::Plot => false,
+        }
+    }
 }
 
 /// One assignment in COLOR.
@@ -177,6 +202,35 @@ mod tests {
             assert_eq!(color.last(ColorKey::Table), None);
             assert_eq!(program.trailing.as_str(), " x");
         }
+    }
+
+    #[test]
+    fn words_of_a_value_need_no_quotes_in_color() {
+        let text = format!(
+            "{SIX}\nCOLOR: patch = circle 2 ; degrees\n spectrum = f0, f1,f2 ,f3\r\n \
+             wavelength = wl / 1000 material = red  paint END"
+        );
+        for dialect in [Dialect::Sound, Dialect::Compat] {
+            let program = program::parse(&text, dialect).unwrap();
+            let color = program.color.clone().unwrap();
+            let value = |key| color.last(key).unwrap().as_str();
+            assert_eq!(value(ColorKey::Patch), "circle 2");
+            assert_eq!(value(ColorKey::Wavelength), "wl / 1000");
+            assert_eq!(value(ColorKey::Material), "red  paint");
+            let labels = color.spectrum();
+            let places: Vec<_> = labels.iter().map(|label| label.span().of(&text)).collect();
+            assert_eq!(places, ["f0", "f1", "f2", "f3"]);
+            assert_eq!(program.comments[0].text, " degrees");
+            let printed = program.to_string();
+            assert!(printed.contains("    patch = circle 2 ; degrees\n"), "{printed}");
+            assert_eq!(program::parse(&printed, dialect).unwrap().to_string(), printed);
+        }
+    }
+
+    #[test]
+    fn names_of_files_in_color_are_one_word() {
+        let text = format!("{SIX}\nCOLOR: table = red paint.mtab END");
+        assert!(program::parse(&text, Dialect::Sound).is_err());
     }
 
     #[test]

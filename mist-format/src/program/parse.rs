@@ -387,6 +387,8 @@ impl<'t> Parser<'t> {
             match self.assignment(cue, |_| Values::Texts)? {
                 Assignment::Entry(name, value) => {
                     let key = self.color_key(&name);
+                    let words = key.is_some_and(ColorKey::takes_words);
+                    let value = if words { self.with_words(value) } else { value };
                     entries.extend(key.map(|key| ColorEntry { key, name, value }));
                 }
                 Assignment::End(end) => {

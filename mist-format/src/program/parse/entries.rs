@@ -5,6 +5,7 @@ use super::super::lex::{Stop, Token};
 use super::{CUES, Fatal, MAX_ERRORS, Parser, Read, is};
 use crate::diagnostic::Diagnostic;
 use crate::dialect::Quirk;
+use crate::number::is_blank;
 use crate::span::Span;
 
 /// One assignment, or the END of a section.
@@ -96,6 +97,32 @@ impl Parser<'_> {
             }
         }
         Ok(value)
+    }
+
+    /// The value with the words behind it in its line, up to END or the next assignment.
+    pub(super) fn with_words(&mut self, value: Text) -> Text {
+        if value.is_quoted() {
+            return value;
+        }
+        let Span { start, end: first } = value.span();
+        let line = &self.text[first..];
+        let line = &line[..line.find(['\n', ';']).unwrap_or(line.len())];
+        let blank = |c: char| u8::try_from(c).is_ok_and(is_blank);
+        let mut end = first;
+        let mut at = 0;
+        for word in line.split(blank) {
+            let behind = line[at + word.len()..].trim_start_matches(blank);
+            let is_other = word.eq_ignore_ascii_case("END") || word.contains(['=', '"']);
+            if is_other || behind.starts_with('=') {
+                break;
+            }
+            if !word.is_empty() {
+                end = first + at + word.len();
+            }
+            at += word.len() + 1;
+        }
+        self.reader.go_to(end);
+        Text::new(&self.text[start..end], start)
     }
 
     /// `(1, 2)` without quotes: the blank ends the value. NIST's program says `Mismatched
