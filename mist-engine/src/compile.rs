@@ -108,7 +108,9 @@ impl Compiler<'_> {
             }
             None => format!("there is no BRDF model called {name:?}"),
         };
+        let is_family = message.ends_with("not one of them");
         let help = did_you_mean(name, all)
+            .filter(|_| !is_family)
             .unwrap_or_else(|| "`mist models` lists all models; case matters".into());
         self.faults.push(fault_plain("program/unknown-model", model, message).help(help));
         None
@@ -264,7 +266,10 @@ impl Compiler<'_> {
         let file = match self.library.list(name) {
             Ok(file) => file,
             Err(message) => {
-                self.faults.push(fault_plain("loop/list-file", &statement.file, message));
+                let help = "a LIST file has a line with names of variables, and a row with a value \
+                            for each of them for every step, up to the first empty line";
+                let fault = fault_plain("loop/list-file", &statement.file, message);
+                self.faults.push(fault.help(help));
                 return None;
             }
         };

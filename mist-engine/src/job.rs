@@ -1,7 +1,7 @@
 //! The compiled job: an immutable program with its expressions bound to slots.
 
 use mist_format::{
-    Program,
+    Diagnostic, Program,
     expr::{Expr, Value},
     number::PrintfFormat,
     program::{Shape, Text},
@@ -12,6 +12,7 @@ use crate::{
     Library, Limits,
     colour::section::ColourSection,
     fault::{Fault, fault},
+    region::RegionError,
     scope::Names,
     sweep::LoopPlan,
 };
@@ -116,6 +117,20 @@ pub(crate) struct IntegralPlan {
     pub(crate) settings: Vec<Setting>,
 }
 
+impl IntegralPlan {
+    /// What is written for the last parameter that is one of `keys`.
+    fn setting(&self, keys: &[Key]) -> Option<&Text> {
+        let found = self.settings.iter().rev().find(|setting| keys.contains(&setting.key));
+        found.map(|setting| &setting.text)
+    }
+
+    /// What is written for the corner `number` of a polygon, from 1.
+    fn vertex(&self, number: usize) -> Option<&Text> {
+        let mut corners = self.settings.iter().filter(|setting| setting.key == Key::Vertex);
+        corners.nth(number.checked_sub(1)?).map(|setting| &setting.text)
+    }
+}
+
 /// One output.
 pub(crate) struct OutputPlan {
     pub(crate) slot: u32,
@@ -173,7 +188,49 @@ impl Job {
             .max_by_key(|entry| entry.parameter.as_ref().map_or(0, String::len));
         let place = set_by
             .map_or(&self.program.model, |entry| &self.program.variables[entry.variable].value);
-        fault("model/parameter", place, error.to_string())
+        let fault = fault("model/parameter", place, error.to_string());
+        match set_by {
+            Some(_) => {
+                Box::new(fault.help("`mist models NAME` says what the parameters of a class take"))
+            }
+            None => Box::new(fault.help(format!("set it in VARIABLES: `#{path} = …`"))),
+        }
+    }
+
+    /// The fault of an integral whose region cannot be sampled, where the program says so.
+    pub(crate) fn region_fault(&self, number: usize, error: &RegionError) -> Fault {
+        let plan = &self.integrals[number];
+        let (place, help) = match error {
+            RegionError::Mode(_) => (
+                self.variable_text(self.required.integrationmode),
+                "write 1 to 6, or 11 to 16 for sums without normalization",
+            ),
+            RegionError::PolygonSides(_) => {
+                (self.variable_text(self.required.polygonsides), "360 is usual")
+            }
+            RegionError::BelowHorizon { number, .. } => (
+                plan.vertex(*number),
+                "the polar angle of a corner is at most pi/2; degrees are written 60*deg",
+            ),
+            RegionError::Crossing { second, .. } => (
+                plan.vertex(*second),
+                "give the corners in their order around the polygon; an edge runs to each corner \
+                 from the one before it",
+            ),
+            RegionError::WideOrthographic { .. } => (
+                plan.setting(&[Key::Alpha, Key::OuterAlpha]),
+                "ALPHA is in radians; degrees are written 20*deg",
+            ),
+        };
+        let message = format!("{}: {error}", plan.name);
+        let place = place.unwrap_or(&plan.name);
+        Box::new(Diagnostic::error("integral/region", place.span(), message).help(help))
+    }
+
+    /// What is written for the variable in `slot`.
+    pub(crate) fn variable_text(&self, slot: u32) -> Option<&Text> {
+        let entry = self.entries.iter().rev().find(|entry| entry.slot == Some(slot))?;
+        Some(&self.program.variables[entry.variable].value)
     }
 
     fn name_or(&self, given: Option<&Text>, extension: &str) -> String {

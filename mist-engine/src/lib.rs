@@ -29,6 +29,7 @@
 //!
 //! The crate opens no file and no socket, and starts no thread pool.
 
+mod advice;
 mod fault;
 mod files;
 mod limits;

@@ -370,11 +370,11 @@ impl Aperture {
 fn direction(value: &Value, text: &Text) -> Result<(f64, f64), Fault> {
     match value.as_slice() {
         [theta, phi, ..] => Ok((*theta, *phi)),
-        _ => Err(Box::new(*fault(
-            "integral/direction",
-            text,
-            "a direction has two elements, (theta,phi)",
-        ))),
+        _ => {
+            let message = "a direction has two elements, (theta,phi)";
+            let found = fault("integral/direction", text, message);
+            Err(Box::new(found.help("write both angles, in radians: (0.3,0)")))
+        }
     }
 }
 

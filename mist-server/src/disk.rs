@@ -30,7 +30,8 @@ impl DiskFiles {
     /// For the program or the material at `path`.
     pub(crate) fn beside(path: &Path) -> Self {
         let mut folders = vec![PathBuf::new()];
-        folders.extend(path.parent().map(Path::to_owned));
+        let beside = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        folders.extend(beside.map(Path::to_owned));
         if let Some(list) = std::env::var_os(PATH_VARIABLE) {
             folders.extend(std::env::split_paths(&list));
         }

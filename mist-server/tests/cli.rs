@@ -221,3 +221,64 @@ fn formatting_a_program_twice_changes_nothing_more() {
     fs::write(dir.path().join("b.mist"), &once).unwrap();
     assert_eq!(stdout(mist(dir.path()).args(["fmt", "b.mist"])), once);
 }
+
+/// A program with an unused variable in line 3 and an angle in degrees in line 4.
+const DOUBTFUL: &str = "\
+MODEL = Lambertian_BRDF_Model
+VARIABLES:
+  spare = 1
+  incidentangle = 45  incidentpol = (1,0,0,0)  rotation = 0  differential = 1e-3  minsamples = 50
+END
+VARY: END
+INTEGRALS: R = HEMI END END
+OUTPUTS: 1 R END
+FILES: END
+";
+
+#[test]
+fn check_shows_warnings_with_their_places_and_ends_well() {
+    let dir = folder();
+    fs::write(dir.path().join("a.mist"), DOUBTFUL).unwrap();
+    let told = mist(dir.path()).args(["check", "a.mist"]).assert().code(0).get_output().clone();
+    let said = String::from_utf8(told.stderr).unwrap();
+    for part in [
+        "warning[program/unused-variable]",
+        "a.mist:3:3",
+        "warning[angle/degrees]",
+        "a.mist:4:19",
+        "45*deg",
+    ] {
+        assert!(said.contains(part), "{part} in\n{said}");
+    }
+    let said = String::from_utf8(told.stdout).unwrap();
+    assert_eq!(said, "a.mist: no mistake found, 2 warnings\n");
+}
+
+#[test]
+fn check_gives_editors_warnings_as_json() {
+    let dir = folder();
+    fs::write(dir.path().join("a.mist"), DOUBTFUL).unwrap();
+    let said = stdout(mist(dir.path()).args(["check", "--message-format", "json", "a.mist"]));
+    let lines: Vec<serde_json::Value> =
+        said.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines.len(), 2, "{said}");
+    assert!(lines.iter().all(|line| line["severity"] == "warning"), "{said}");
+    assert_eq!((&lines[0]["line"], &lines[0]["column"]), (&3.into(), &3.into()));
+    assert_eq!(lines[1]["code"], "angle/degrees");
+}
+
+#[test]
+fn check_finds_what_the_first_step_would_refuse() {
+    let dir = folder();
+    fs::write(dir.path().join("a.mist"), DOUBTFUL.replace("spare = 1", "#spare = 1")).unwrap();
+    let said = stderr(mist(dir.path()).args(["check", "a.mist"]), 2);
+    assert!(said.contains("has no parameter spare") && said.contains("a.mist:3:3"), "{said}");
+}
+
+#[test]
+fn a_program_that_cannot_be_converted_is_told_with_its_places() {
+    let dir = folder();
+    fs::write(dir.path().join("a.mist"), "MODEL = M\nVARIABLE:\nEND\n").unwrap();
+    let said = stderr(mist(dir.path()).args(["convert", "a.mist"]), 2);
+    assert!(said.contains("a.mist:2:1") && said.contains("VARIABLES:"), "{said}");
+}

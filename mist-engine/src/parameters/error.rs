@@ -46,6 +46,12 @@ impl SetError {
     /// The error as a diagnostic at `span`.
     pub fn diagnostic(&self, span: Span) -> Diagnostic {
         let code = if self.about_the_name { "model/unknown-parameter" } else { "model/value" };
-        Diagnostic::error(code, span, self.to_string()).help_if(self.help.clone())
+        let usual = if self.about_the_name {
+            "`mist models NAME` lists the parameters of a class"
+        } else {
+            "`mist models NAME` says what a parameter takes; files are looked for in the working \
+             folder, beside the program and along SCATMECH"
+        };
+        Diagnostic::error(code, span, self.to_string()).help(usual).help_if(self.help.clone())
     }
 }

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, f64::consts::FRAC_PI_2, fmt::Write as _, sync::Arc};
 
-use mist_format::{Diagnostic, number::general};
+use mist_format::number::general;
 use rayon::prelude::*;
 use scattering::{Defect, Direction, Incidence, Mueller, ParamError};
 
@@ -16,7 +16,7 @@ use crate::{
     integrate::{contract, integrate, samples},
     limits::Meter,
     parameters::Fingerprint,
-    region::{Region, RegionError},
+    region::Region,
     sampling::{Layout, LayoutKey},
     step::{Integral, Step},
 };
@@ -139,8 +139,9 @@ impl<'a> Shared<'a> {
             })
             .collect();
         for ((key, wanted_by), layout) in wanted.into_iter().zip(made) {
-            let layout = layout
-                .map_err(|error| self.failure(block, wanted_by, |n| self.region(n, &error)))?;
+            let layout = layout.map_err(|error| {
+                self.failure(block, wanted_by, |n| self.job.region_fault(n, &error))
+            })?;
             let numbered = (self.next_layout, Arc::new(layout));
             self.next_layout += 1;
             self.layouts.insert(key.clone(), numbered.clone(), numbered.1.bytes());
@@ -233,16 +234,6 @@ impl<'a> Shared<'a> {
         fault: impl FnOnce(usize) -> Fault,
     ) -> Failure {
         crate::run::at_step(block[at].index, fault(number))
-    }
-
-    /// The fault of an integral whose region cannot be sampled.
-    fn region(&self, number: usize, error: &RegionError) -> Fault {
-        let plan = &self.job.integrals[number];
-        let message = format!("{}: {error}", plan.name);
-        Box::new(
-            Diagnostic::error("integral/region", plan.name.span(), message)
-                .help("see the shapes in docs/language.md; angles are in radians"),
-        )
     }
 
     /// The defects met since the last call.

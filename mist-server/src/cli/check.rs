@@ -37,19 +37,28 @@ pub(super) struct Args {
 pub(super) fn check(args: &Args) -> Result<(), Stop> {
     let mut fate = Fate::Good;
     for path in &args.programs {
-        let source = Source::read(path)?;
+        let source = Source::program(path)?;
         let files = DiskFiles::beside(path).shared();
         let options = Options { mode: mode(args.compat), job: source.stem(), ..Options::default() };
-        match compile(&source.text, files, &options) {
-            Ok(_) if args.message_format == MessageFormat::Human => {
-                print(&format!("{}: no mistake found\n", source.name()))?;
-            }
-            Ok(_) => {}
-            Err(diagnostics) => {
-                report::tell(&diagnostics, &source.name(), &source.text, args.message_format);
-                fate = Fate::Refused;
-            }
+        let found = match compile(&source.text, files, &options) {
+            Ok(job) => job.advice(),
+            Err(diagnostics) => diagnostics,
+        };
+        report::tell(&found, &source.name(), &source.text, args.message_format);
+        let errors = found.iter().filter(|diagnostic| diagnostic.is_error()).count();
+        if errors > 0 {
+            fate = Fate::Refused;
+        } else if args.message_format == MessageFormat::Human {
+            print(&format!("{}: {}\n", source.name(), summary(found.len())))?;
         }
     }
     fate.done()
+}
+
+fn summary(warnings: usize) -> String {
+    match warnings {
+        0 => "no mistake found".into(),
+        1 => "no mistake found, 1 warning".into(),
+        many => format!("no mistake found, {many} warnings"),
+    }
 }

@@ -2,8 +2,16 @@
 
 use std::path::PathBuf;
 
-use super::{print, stop::Stop};
-use crate::disk::WholeFile;
+use mist_format::convert::ConvertError;
+
+use super::{
+    print,
+    stop::{Fate, Stop},
+};
+use crate::{
+    disk::WholeFile,
+    report::{self, MessageFormat},
+};
 
 /// Turn a document of NIST's Windows program, or an old program, into a program of today.
 #[derive(clap::Args)]
@@ -24,11 +32,28 @@ pub(super) fn convert(args: &Args) -> Result<(), Stop> {
     let name = args.file.display();
     let bytes = std::fs::read(&args.file)
         .map_err(|error| Stop::Refused(format!("cannot read {name}: {error}")))?;
-    let text = mist_format::convert::convert(&bytes)
-        .map_err(|error| Stop::Refused(format!("{name}: {error}")))?;
+    let text =
+        mist_format::convert::convert(&bytes).map_err(|error| refused(error, args, &bytes))?;
     match &args.output {
         None => print(&text),
         Some(path) => WholeFile::write(path, &text)
             .map_err(|error| Stop::Failed(format!("cannot write {}: {error}", path.display()))),
+    }
+}
+
+/// Says why the file cannot be converted, with the places where it is a program.
+fn refused(error: ConvertError, args: &Args, bytes: &[u8]) -> Stop {
+    let name = args.file.display().to_string();
+    match &error {
+        ConvertError::Program(found) => {
+            let text = mist_format::decode(bytes);
+            report::tell(found, &name, &text, MessageFormat::Human);
+            Stop::Said(Fate::Refused)
+        }
+        ConvertError::Incomplete { text, found } => {
+            report::tell(found, &format!("{name}, converted"), text, MessageFormat::Human);
+            Stop::Said(Fate::Refused)
+        }
+        ConvertError::Document(_) => Stop::Refused(format!("{name}: {error}")),
     }
 }

@@ -42,7 +42,7 @@ pub(super) struct Args {
 pub(super) fn fmt(args: &Args) -> Result<(), Stop> {
     let mut fate = Fate::Good;
     for path in &args.programs {
-        fate = fate.max(format_one(args, &Source::read(path)?)?);
+        fate = fate.max(format_one(args, &Source::program(path)?)?);
     }
     fate.done()
 }

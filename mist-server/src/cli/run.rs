@@ -121,7 +121,7 @@ pub(super) fn mode(compat: bool) -> Mode {
 }
 
 fn run_one(args: &Args, program: &Path, mut control: Control) -> Result<Fate, Stop> {
-    let source = match Source::read(program) {
+    let source = match Source::program(program) {
         Ok(source) => source,
         Err(Stop::Refused(message)) => {
             report::say(&format!("error: {message}"));

@@ -1,10 +1,12 @@
 //! The text of a program or a material that a command was given.
 
 use std::{
-    fs,
+    fs::File,
     io::Read,
     path::{Path, PathBuf},
 };
+
+use mist_format::program::MAX_PROGRAM_BYTES;
 
 use super::Stop;
 use crate::disk::decode;
@@ -20,8 +22,19 @@ pub(super) struct Source {
 impl Source {
     /// Reads the file at `path`.
     pub(super) fn read(path: &Path) -> Result<Self, Stop> {
-        match fs::read(path) {
-            Ok(bytes) => Ok(Self { path: path.to_owned(), text: decode(bytes) }),
+        Self::of(path, u64::MAX)
+    }
+
+    /// Reads the program at `path`, up to a byte more than a program may have: whoever compiles a
+    /// longer one refuses it.
+    pub(super) fn program(path: &Path) -> Result<Self, Stop> {
+        Self::of(path, MAX_PROGRAM_BYTES as u64 + 1)
+    }
+
+    fn of(path: &Path, most: u64) -> Result<Self, Stop> {
+        let mut bytes = Vec::new();
+        match File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)) {
+            Ok(_) => Ok(Self { path: path.to_owned(), text: decode(bytes) }),
             Err(error) => Err(Stop::Refused(format!("cannot read {}: {error}", path.display()))),
         }
     }

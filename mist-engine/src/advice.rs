@@ -1,0 +1,150 @@
+//! What is allowed but probably not meant, and what a run would refuse: the part of `mist check`
+//! behind compiling.
+//!
+//! Unused variables show in the text. The rest needs numbers: the steps are replayed (see
+//! [`Replay`]) without asking the model for anything, and what angles, wavelengths and apertures
+//! become on the way is looked at.
+
+mod angles;
+mod apertures;
+mod origin;
+mod reading;
+mod unused;
+mod wavelength;
+mod words;
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeSet;
+
+use mist_format::Diagnostic;
+use scattering::spec::Met;
+
+use crate::{Job, fault::Fault, output::Outputs, region::Region, replay::Replay, step::Step};
+use apertures::Apertures;
+use reading::Reading;
+
+/// Steps that are looked at; those of longer programs are estimated from them.
+const STEPS: u64 = 4096;
+/// Different models that are built.
+const MODELS: usize = 16;
+
+impl Job {
+    /// Errors that a run would meet in its first steps, and warnings, in the order of the text.
+    ///
+    /// Up to 4096 steps are replayed and up to 16 models built; none is evaluated.
+    pub fn advice(&self) -> Vec<Diagnostic> {
+        let mut rehearsal = Rehearsal::new(self);
+        let mut found: Vec<_> = rehearsal.run().err().into_iter().map(|fault| *fault).collect();
+        found.extend(unused::warnings(self));
+        found.extend(rehearsal.readings.iter().filter_map(|reading| reading.warning(self)));
+        found.extend(angles::functions(self));
+        found.extend(rehearsal.apertures.warnings(rehearsal.all_steps()));
+        found.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+        found.dedup_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+        found
+    }
+}
+
+/// The steps of a job, looked at one by one.
+struct Rehearsal<'j> {
+    job: &'j Job,
+    readings: Vec<Reading<'j>>,
+    apertures: Apertures<'j>,
+    /// Fingerprints of the models that were built.
+    models: BTreeSet<crate::parameters::Fingerprint>,
+    steps: u64,
+    /// How far the steps went.
+    fraction: f64,
+    is_whole: bool,
+}
+
+impl<'j> Rehearsal<'j> {
+    fn new(job: &'j Job) -> Self {
+        let mut readings = angles::readings(job);
+        readings.extend(wavelength::readings(job));
+        let (apertures, models) = (Apertures::new(job), BTreeSet::new());
+        Self { job, readings, apertures, models, steps: 0, fraction: 0.0, is_whole: false }
+    }
+
+    /// Goes through the steps up to the first that fails.
+    fn run(&mut self) -> Result<(), Fault> {
+        let mut replay = Replay::new(self.job);
+        while self.steps < STEPS {
+            let next = replay.next_step().map_err(|fault| self.in_step(fault))?;
+            let Some(step) = next else {
+                self.is_whole = true;
+                return Ok(());
+            };
+            self.readings.iter_mut().for_each(|reading| reading.see(&mut replay.scope));
+            self.fraction = step.fraction;
+            self.see(&step).map_err(|fault| self.in_step(fault))?;
+            self.steps += 1;
+            if self.job.in_order {
+                // The next step reads results that nobody has computed.
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    fn see(&mut self, step: &Step) -> Result<(), Fault> {
+        self.apertures.see(step)?;
+        self.build(step)?;
+        if self.steps == 0 {
+            self.outputs(step)?;
+        }
+        Ok(())
+    }
+
+    /// Names and functions of the outputs, with 1 for each integral.
+    fn outputs(&self, step: &Step) -> Result<(), Fault> {
+        let ones = vec![1.0; self.job.integrals.len()];
+        let about_names = |code| {
+            matches!(code, "expr/unknown-name" | "expr/unknown-function" | "expr/file-arguments")
+        };
+        match Outputs::new(self.job).line(step, &ones) {
+            Err(fault) if about_names(fault.code) => Err(fault),
+            _ => Ok(()),
+        }
+    }
+
+    /// Builds the model of a step, if the step asks it for anything and it is a new one.
+    fn build(&mut self, step: &Step) -> Result<(), Fault> {
+        let below = |theta: f64| theta.abs() >= std::f64::consts::FRAC_PI_2;
+        let asks = step.integrals.iter().any(|integral| match integral.region {
+            Region::Differential { center } => !below(center.0) && !below(step.theta_i),
+            _ => true,
+        });
+        if !asks || self.models.len() >= MODELS {
+            return Ok(());
+        }
+        if !self.models.insert(step.parameters.fingerprint()) {
+            return Ok(());
+        }
+        let node = step.parameters.node(self.job.options.mode, &Met::default());
+        match scattering::models::build(&node) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(self.job.parameter_fault(&error)),
+        }
+    }
+
+    /// A fault of a later step says which.
+    fn in_step(&self, fault: Fault) -> Fault {
+        match self.steps {
+            0 => fault,
+            step => Box::new(fault.note(format!("in step {}", step + 1))),
+        }
+    }
+
+    /// How many steps the run has, as far as it can be told.
+    fn all_steps(&self) -> f64 {
+        let seen = self.steps as f64;
+        if self.is_whole || self.job.in_order {
+            seen
+        } else {
+            seen / self.fraction.clamp(1e-3, 1.0)
+        }
+    }
+}

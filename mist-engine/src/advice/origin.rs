@@ -1,0 +1,183 @@
+//! Where a number comes from: through plain variables and loops back to what was written.
+
+use mist_format::{Span, program::Text};
+
+use super::words::{Kind, Word, words};
+use crate::{Job, sweep::LoopPlan};
+
+/// Longer chains of variables are not followed.
+const LONGEST_CHAIN: usize = 32;
+
+/// Which element of a vector is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Element {
+    /// The one at this place, from 0.
+    At(usize),
+    /// Where one number is wanted, the last one.
+    Last,
+}
+
+/// What was written for a number.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Origin {
+    /// Where.
+    pub(super) span: Span,
+    /// The text there.
+    pub(super) text: String,
+    /// Whether it is a number and nothing else.
+    pub(super) is_literal: bool,
+}
+
+/// Follows `element` of `text`, whose value is `value`, to what was written for it.
+pub(super) fn origin(job: &Job, text: &Text, element: Element, value: f64) -> Origin {
+    let mut text = text.clone();
+    let mut element = Some(element);
+    for _ in 0..LONGEST_CHAIN {
+        if let Some(part) = element.and_then(|element| part(&text, element)) {
+            text = part;
+        }
+        let all = words(text.as_str());
+        match &all[..] {
+            [Word { kind: Kind::Name, text: name, .. }] => match source(job, name, value) {
+                Some(Source::Text(next)) => {
+                    // A loop gives plain numbers; a variable may be a vector itself.
+                    element = element.or(Some(Element::Last));
+                    text = next;
+                }
+                Some(Source::File(file)) => return whole(&file),
+                None => return whole(&text),
+            },
+            [minus @ .., number] if minus.iter().all(|word| word.is("-") || word.is("+")) => {
+                let is_literal = matches!(number.kind, Kind::Number(_));
+                return Origin { is_literal, ..whole(&text) };
+            }
+            _ => return largest(&text, &all),
+        }
+    }
+    whole(&text)
+}
+
+/// The largest number in an expression, or the whole of it.
+fn largest(text: &Text, all: &[Word<'_>]) -> Origin {
+    let number = |word: &Word<'_>| match word.kind {
+        Kind::Number(x) => Some((x, word.range.clone())),
+        _ => None,
+    };
+    let found = all.iter().filter_map(number).max_by(|a, b| a.0.total_cmp(&b.0));
+    // A factor or an offset as small as an angle in radians is not to blame.
+    match found.filter(|(x, _)| *x > std::f64::consts::TAU) {
+        Some((_, range)) => Origin { is_literal: true, ..whole(&text.part(range)) },
+        None => whole(text),
+    }
+}
+
+fn whole(text: &Text) -> Origin {
+    Origin { span: text.span(), text: text.as_str().trim().to_owned(), is_literal: false }
+}
+
+/// One element of a list that is written as a list.
+fn part(text: &Text, element: Element) -> Option<Text> {
+    let all = words(text.as_str());
+    let inner = match &all[..] {
+        [open, inner @ .., close] if open.is("(") && close.is(")") && balanced(inner) => inner,
+        inner => inner,
+    };
+    let mut parts = vec![Vec::new()];
+    let mut depth = 0;
+    for word in inner {
+        depth += i32::from(word.is("(")) - i32::from(word.is(")"));
+        match (word.is(","), depth) {
+            (true, 0) => parts.push(Vec::new()),
+            _ => parts.last_mut()?.push(word),
+        }
+    }
+    let wanted = match element {
+        Element::At(place) => parts.get(place)?,
+        Element::Last => parts.last()?,
+    };
+    Some(text.part(wanted.first()?.range.start..wanted.last()?.range.end))
+}
+
+fn balanced(words: &[Word<'_>]) -> bool {
+    let mut depth = 0;
+    words.iter().all(|word| {
+        depth += i32::from(word.is("(")) - i32::from(word.is(")"));
+        depth >= 0
+    }) && depth == 0
+}
+
+enum Source {
+    Text(Text),
+    File(Text),
+}
+
+/// What gives the variable `name` its value: a loop, or its entry.
+fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
+    let slot = job.names.find(name)?;
+    let at = job.entries.iter().rposition(|entry| entry.slot == Some(slot))?;
+    let writer = job.loops.iter().rev().find(|each| each.entries().contains(&at));
+    Some(match writer {
+        Some(LoopPlan::For(plan)) => {
+            let statement = &plan.statement;
+            let near = |text: &Text| {
+                let number = mist_format::number::whole_number(text.as_str().trim());
+                (number.unwrap_or(f64::INFINITY) - value).abs()
+            };
+            let from = near(&statement.from) < near(&statement.to);
+            Source::Text(if from { statement.from.clone() } else { statement.to.clone() })
+        }
+        Some(LoopPlan::List(plan)) => Source::File(plan.statement.file.clone()),
+        None => Source::Text(job.program.variables[job.entries[at].variable].value.clone()),
+    })
+}
+
+/// Whether the value is made of an angle in degrees, or of π: through all variables it reads.
+pub(super) fn is_converted(job: &Job, text: &Text) -> bool {
+    let mut open = vec![text.as_str()];
+    let mut seen = std::collections::BTreeSet::new();
+    while let Some(text) = open.pop() {
+        for word in words(text) {
+            match word.kind {
+                Kind::Number(x) if is_a_conversion(x) => return true,
+                Kind::Name if converts(word.text) => return true,
+                Kind::Name if seen.insert(word.text.to_owned()) => {
+                    open.extend(texts_of(job, word.text));
+                }
+                _ => {}
+            }
+        }
+    }
+    false
+}
+
+/// π/180, 180/π, π and its simplest parts as people write them.
+fn is_a_conversion(x: f64) -> bool {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+    [PI / 180.0, 180.0 / PI, PI, FRAC_PI_2, FRAC_PI_4, TAU, 180.0]
+        .iter()
+        .any(|known| (x / known - 1.0).abs() < 1e-3)
+}
+
+fn converts(name: &str) -> bool {
+    matches!(name, "pi" | "deg" | "asin" | "acos" | "atan" | "atan2")
+}
+
+/// Everything that is written for the variable `name`.
+fn texts_of<'j>(job: &'j Job, name: &str) -> Vec<&'j str> {
+    let Some(slot) = job.names.find(name) else { return Vec::new() };
+    let mut found = Vec::new();
+    for (at, entry) in job.entries.iter().enumerate().filter(|(_, e)| e.slot == Some(slot)) {
+        found.push(job.program.variables[entry.variable].value.as_str());
+        for each in &job.loops {
+            if let LoopPlan::For(plan) = each
+                && plan.entry == at
+            {
+                let statement = &plan.statement;
+                found.extend([statement.from.as_str(), statement.to.as_str()]);
+            }
+        }
+    }
+    let outputs = job.outputs.iter().filter(|output| output.slot == slot);
+    found.extend(outputs.map(|output| output.text.as_str()));
+    found
+}

@@ -1,0 +1,42 @@
+//! Wavelengths that look like nanometres where micrometres are read.
+
+use mist_format::number::whole_number;
+
+use super::{
+    origin::Element,
+    reading::{Reading, Source, Unit},
+};
+use crate::Job;
+
+/// The models are used for light from 0.1 to some 20 µm: 100 µm are rather 100 nm.
+const LONGEST_UM: f64 = 100.0;
+
+/// The wavelengths of the model and of the section COLOR.
+pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
+    let model = job.entries.iter().filter_map(|entry| {
+        let name = entry.parameter.as_deref()?;
+        if name.rsplit('.').next() != Some("lambda") {
+            return None;
+        }
+        let text = &job.program.variables[entry.variable].value;
+        let source = match entry.slot {
+            Some(slot) => Source::Slot(slot),
+            None => Source::Number(whole_number(text.as_str())?),
+        };
+        Some(reading(name.to_owned(), text, source))
+    });
+    let colour = job.colour.as_ref().and_then(|colour| {
+        let placed = &colour.wavelength;
+        Some(reading("wavelength".into(), placed.text.as_ref()?, Source::Expr(&placed.expr)))
+    });
+    model.chain(colour).collect()
+}
+
+fn reading<'j>(
+    what: String,
+    text: &'j mist_format::program::Text,
+    source: Source<'j>,
+) -> Reading<'j> {
+    let (unit, element) = (Unit::Micrometres, Element::Last);
+    Reading { what, unit, text, source, element, most: LONGEST_UM, extreme: 0.0 }
+}
