@@ -6,7 +6,7 @@ use std::{
     sync::Arc,
 };
 
-use mist_engine::{Control, Failure, FileError, Files, MemorySink, Options, Summary, compile};
+use mist_engine::{Control, Failure, FileError, Files, Job, MemorySink, Options, Summary, compile};
 use mist_format::Diagnostic;
 use scattering::Mode;
 use serde::Deserialize;
@@ -100,30 +100,96 @@ fn latin1(bytes: &[u8]) -> String {
 /// What came of a run.
 pub type Outcome = Result<(MemorySink, Summary), Failure>;
 
+/// A program with the folder that its data files are in.
+pub struct Program {
+    /// Name of the job.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    folder: PathBuf,
+}
+
+impl Program {
+    /// The program of `case`, in the folder of the programs.
+    ///
+    /// # Panics
+    ///
+    /// If its file cannot be read.
+    pub fn of(case: &Case) -> Self {
+        Self::read(&folder(), case).expect("the program can be read")
+    }
+
+    fn read(folder: &Path, case: &Case) -> Option<Self> {
+        let folder = folder.join(&case.name);
+        let file = &case.args[0];
+        let bytes = fs::read(folder.join(file)).ok()?;
+        let stem = file.rsplit_once('.').map_or(file.as_str(), |(stem, _)| stem);
+        let name = case.args.get(1).map_or(stem, String::as_str).to_owned();
+        Some(Self { name, text: latin1(&bytes), folder })
+    }
+
+    fn compile(&self, mode: Mode) -> Result<Job, Vec<Diagnostic>> {
+        let options = Options { mode, job: self.name.clone(), ..Options::default() };
+        compile(&self.text, Arc::new(Folder(self.folder.clone())), &options)
+    }
+
+    /// What `mist check` finds in `mode`.
+    pub fn check(&self, mode: Mode) -> Vec<Diagnostic> {
+        self.compile(mode).map_or_else(|found| found, |job| job.advice())
+    }
+
+    /// Runs it in `mode`.
+    ///
+    /// # Errors
+    ///
+    /// As the program has them.
+    pub fn run(&self, mode: Mode) -> Outcome {
+        let job = self.compile(mode).map_err(Failure::Program)?;
+        let mut sink = MemorySink::default();
+        let summary = job.run(&mut sink, &Control::default())?;
+        Ok((sink, summary))
+    }
+}
+
+/// Every program in the folder `root` and in its folders, by name.
+///
+/// # Panics
+///
+/// If a folder or a program cannot be read.
+pub fn programs(root: &Path) -> Vec<Program> {
+    let entries = |folder: &Path| {
+        let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+        entries.map(|entry| entry.expect("the folder can be read").path()).collect::<Vec<_>>()
+    };
+    let mut found = Vec::new();
+    for path in entries(root) {
+        let files = if path.is_dir() { entries(&path) } else { vec![path] };
+        let is_program = |path: &PathBuf| path.extension().is_some_and(|name| name == "mist");
+        for file in files.into_iter().filter(is_program) {
+            let bytes = fs::read(&file).expect("a program can be read");
+            let stem = file.file_stem().unwrap_or_default();
+            found.push(Program {
+                name: stem.to_string_lossy().into_owned(),
+                text: latin1(&bytes),
+                folder: file.parent().map(Path::to_owned).unwrap_or_default(),
+            });
+        }
+    }
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    found
+}
+
 /// Runs `case` of `folder` in `mode`.
 ///
 /// # Errors
 ///
 /// As the program has them.
-///
-/// # Panics
-///
-/// If the program's file cannot be read.
 pub fn run(folder: &Path, case: &Case, mode: Mode) -> Outcome {
-    let folder = folder.join(&case.name);
-    let file = &case.args[0];
-    let Ok(bytes) = fs::read(folder.join(file)) else {
+    let Some(program) = Program::read(folder, case) else {
         let missing = Diagnostic::error("file", mist_format::Span::new(0, 0), "no such program");
         return Err(Failure::Program(vec![missing]));
     };
-    let stem = file.rsplit_once('.').map_or(file.as_str(), |(stem, _)| stem);
-    let job = case.args.get(1).map_or(stem, String::as_str).to_owned();
-    let options = Options { mode, job, ..Options::default() };
-    let job =
-        compile(&latin1(&bytes), Arc::new(Folder(folder)), &options).map_err(Failure::Program)?;
-    let mut sink = MemorySink::default();
-    let summary = job.run(&mut sink, &Control::default())?;
-    Ok((sink, summary))
+    program.run(mode)
 }
 
 /// The text that NIST's program wrote into `name`.

@@ -112,10 +112,16 @@ impl<'j> Apertures<'j> {
 
     fn many(&self, at: usize, most: f64) -> Diagnostic {
         let name = &self.job.integrals[at].name;
-        let message = format!("{name} has about {most:.1e} directions");
-        let found = Diagnostic::warning("sampling/many", name.span(), message)
-            .help("make differential larger: 1e5 directions are much already");
-        self.with_differential(found)
+        let limit = self.job.options.limits.directions;
+        let help = "make differential larger: 1e5 directions are much already";
+        let found = if most > limit {
+            let message = format!("{name} has about {most:.1e} directions, more than {limit:.0e}");
+            Diagnostic::error("sampling/too-many", name.span(), message)
+        } else {
+            let message = format!("{name} has about {most:.1e} directions");
+            Diagnostic::warning("sampling/many", name.span(), message)
+        };
+        self.with_differential(found.help(help))
     }
 
     fn long_run(&self, evaluations: f64, steps: f64) -> Diagnostic {

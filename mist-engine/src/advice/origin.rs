@@ -1,5 +1,7 @@
 //! Where a number comes from: through plain variables and loops back to what was written.
 
+use std::collections::BTreeSet;
+
 use mist_format::{Span, program::Text};
 
 use super::words::{Kind, Word, words};
@@ -26,6 +28,14 @@ pub(super) struct Origin {
     pub(super) text: String,
     /// Whether it is a number and nothing else.
     pub(super) is_literal: bool,
+}
+
+/// What was written for the variable `name`, whose value is `value`.
+pub(super) fn of_variable(job: &Job, name: &str, value: f64) -> Option<Origin> {
+    Some(match source(job, name, value)? {
+        Source::Text(text) => origin(job, &text, Element::Last, value),
+        Source::File(file) => whole(&file),
+    })
 }
 
 /// Follows `element` of `text`, whose value is `value`, to what was written for it.
@@ -131,12 +141,21 @@ fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
     })
 }
 
-/// Whether the value is made of an angle in degrees, or of π: through all variables it reads.
-pub(super) fn is_converted(job: &Job, text: &Text) -> bool {
-    let mut open = vec![text.as_str()];
-    let mut seen = std::collections::BTreeSet::new();
+/// Whether an element is made of an angle in degrees, or of π: through all variables it reads.
+pub(super) fn is_converted(job: &Job, text: &Text, element: Element) -> bool {
+    let part = part(text, element).unwrap_or_else(|| text.clone());
+    are_converted(job, vec![part.as_str().to_owned()])
+}
+
+/// The same of a variable.
+pub(super) fn is_variable_converted(job: &Job, name: &str) -> bool {
+    are_converted(job, texts_of(job, name))
+}
+
+fn are_converted(job: &Job, mut open: Vec<String>) -> bool {
+    let mut seen = BTreeSet::new();
     while let Some(text) = open.pop() {
-        for word in words(text) {
+        for word in words(&text) {
             match word.kind {
                 Kind::Number(x) if is_a_conversion(x) => return true,
                 Kind::Name if converts(word.text) => return true,
@@ -153,7 +172,7 @@ pub(super) fn is_converted(job: &Job, text: &Text) -> bool {
 /// π/180, 180/π, π and its simplest parts as people write them.
 fn is_a_conversion(x: f64) -> bool {
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
-    [PI / 180.0, 180.0 / PI, PI, FRAC_PI_2, FRAC_PI_4, TAU, 180.0]
+    [PI / 180.0, 180.0 / PI, PI, FRAC_PI_2, FRAC_PI_4, TAU]
         .iter()
         .any(|known| (x / known - 1.0).abs() < 1e-3)
 }
@@ -162,22 +181,25 @@ fn converts(name: &str) -> bool {
     matches!(name, "pi" | "deg" | "asin" | "acos" | "atan" | "atan2")
 }
 
-/// Everything that is written for the variable `name`.
-fn texts_of<'j>(job: &'j Job, name: &str) -> Vec<&'j str> {
+/// Everything that is written for the variable `name`: its entries, or the bounds of the loop
+/// that writes them.
+fn texts_of(job: &Job, name: &str) -> Vec<String> {
     let Some(slot) = job.names.find(name) else { return Vec::new() };
     let mut found = Vec::new();
     for (at, entry) in job.entries.iter().enumerate().filter(|(_, e)| e.slot == Some(slot)) {
-        found.push(job.program.variables[entry.variable].value.as_str());
-        for each in &job.loops {
-            if let LoopPlan::For(plan) = each
-                && plan.entry == at
-            {
-                let statement = &plan.statement;
-                found.extend([statement.from.as_str(), statement.to.as_str()]);
-            }
+        let writers = job.loops.iter().filter(|each| each.entries().contains(&at));
+        let bounds: Vec<&Text> = writers
+            .flat_map(|each| match each {
+                LoopPlan::For(plan) => vec![&plan.statement.from, &plan.statement.to],
+                LoopPlan::List(plan) => vec![&plan.statement.file],
+            })
+            .collect();
+        match bounds[..] {
+            [] => found.push(&job.program.variables[entry.variable].value),
+            _ => found.extend(bounds),
         }
     }
     let outputs = job.outputs.iter().filter(|output| output.slot == slot);
-    found.extend(outputs.map(|output| output.text.as_str()));
-    found
+    found.extend(outputs.map(|output| &output.text));
+    found.into_iter().map(|text| text.as_str().to_owned()).collect()
 }

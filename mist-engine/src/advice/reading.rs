@@ -8,7 +8,7 @@ use mist_format::{
     program::Text,
 };
 
-use super::origin::{Element, Origin, is_converted, origin};
+use super::origin::{Element, Origin, is_converted, is_variable_converted, of_variable, origin};
 use crate::{Job, scope::Scope};
 
 /// Where the number is found.
@@ -63,9 +63,17 @@ impl<'j> Reading<'j> {
         if self.extreme.abs() <= self.most {
             return None;
         }
-        let origin = origin(job, self.text, self.element, self.extreme);
+        let written = || origin(job, self.text, self.element, self.extreme);
+        let (origin, converted) = match self.source {
+            Source::Slot(slot) => {
+                let name = job.names.name(slot);
+                let found = of_variable(job, name, self.extreme);
+                (found.unwrap_or_else(written), is_variable_converted(job, name))
+            }
+            _ => (written(), is_converted(job, self.text, self.element)),
+        };
         match self.unit {
-            Unit::Radians if is_converted(job, self.text) => None,
+            Unit::Radians if converted => None,
             Unit::Radians => Some(self.degrees(&origin)),
             Unit::Micrometres => Some(self.nanometres(&origin)),
         }

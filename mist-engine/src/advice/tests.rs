@@ -124,6 +124,12 @@ fn a_loop_over_degrees_is_told_at_its_bound() {
 }
 
 #[test]
+fn a_loop_over_the_angle_itself_is_told_at_its_bound_whatever_the_entry_says() {
+    let found = told(&[("VARY: END", "VARY: FOR incidentangle FROM 0 TO 80 BY 10 END")]);
+    assert_eq!(found, one("angle/degrees", 10, "80"));
+}
+
+#[test]
 fn degrees_that_are_multiplied_twice_are_told() {
     let found = told(&[("R*more", "R*cosd(theta*deg)*more")]);
     assert_eq!(found, one("angle/radians", 15, "theta"));
@@ -145,6 +151,8 @@ fn apertures_far_from_differential_are_told() {
     assert_eq!(told(&[("ALPHA = 10*deg", "ALPHA = 0")]), one("sampling/few", 12, "R"));
     let fine = told(&[("differential = 1e-3", "differential = 1e-8")]);
     assert_eq!(fine, one("sampling/many", 12, "R"));
+    let refused = told(&[("differential = 1e-3", "differential = 1e-10")]);
+    assert_eq!(refused, one("sampling/too-many", 12, "R"));
     let long = told(&[
         ("differential = 1e-3", "differential = 1e-7"),
         ("VARY: END", "VARY: FOR more FROM 1 TO 20000 BY 1 END"),
