@@ -6,6 +6,7 @@ mod bridge;
 mod check;
 mod color;
 mod convert;
+mod diff;
 mod eval;
 mod export;
 mod fmt;
@@ -38,6 +39,7 @@ Examples:
   mist models Facet_BRDF_Model        what a model is and which parameters it has
   mist table paint.json --grid thetai=0:10:80,thetas=0:10:80,phis=0:20:180 --lambda 400:20:700 -o paint.mtab
   mist export gold.json --wavelengths 450,500,550,600,650 -o gold.pbsdf
+  mist diff test.exr reference.exr    which part of a difference an observer sees
   mist serve                          answer renderers on http://127.0.0.1:8650
 
 Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.";
@@ -54,6 +56,7 @@ enum Command {
     Color(color::Args),
     Fmt(fmt::Args),
     Convert(convert::Args),
+    Diff(diff::Args),
     Serve(serve::Args),
 }
 
@@ -66,6 +69,7 @@ pub fn main() -> ExitCode {
         Command::Color(args) => color::color(&args),
         Command::Fmt(args) => fmt::fmt(&args),
         Command::Convert(args) => convert::convert(&args),
+        Command::Diff(args) => diff::diff(&args),
         Command::Table(args) => table::table(&args),
         Command::Export(args) => export::export(&args),
         Command::Bridge(args) => bridge::bridge(&args),

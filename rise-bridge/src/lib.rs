@@ -6,6 +6,7 @@
 //! `docs/formats/mtab.md`.
 //!
 //! [`mitsuba`] has the frames and the tables of that renderer, [`tensor`] their container.
+//! [`image`] reads and writes pictures, and [`difference`] tells what two of them differ in.
 //!
 //! ```
 //! # let text = include_str!("../tests/data/orange_paint.mtab");
@@ -17,8 +18,10 @@
 //! ```
 
 mod column;
+pub mod difference;
 pub mod export;
 pub mod goniometer;
+pub mod image;
 pub mod klems;
 pub mod mitsuba;
 pub mod read;

@@ -7,6 +7,8 @@ mod cubic;
 mod linear;
 mod sprague;
 
+pub(crate) use cubic::interpolate as cubic_spline;
+
 use crate::{
     name::{Named, UnknownName},
     wavelength::{Fine, Grid, GridError, fine_wavelengths},
