@@ -34,7 +34,14 @@ pub fn compile(
     files: Arc<dyn Files + Send + Sync>,
     options: &Options,
 ) -> Result<Job, Vec<Diagnostic>> {
-    let program = parse(source, dialect(options.mode))?;
+    let mut program = parse(source, dialect(options.mode))?;
+    for (name, value) in &options.values {
+        let named = |variable: &&mut Variable| variable.name.as_str() == name;
+        for variable in program.variables.iter_mut().filter(named) {
+            // All digits: the text gives the same number.
+            variable.value = Text::new(format!("{value:?}"), variable.value.span().start);
+        }
+    }
     let library = Library::new(files, dialect(options.mode));
     Compiler { program, options, library, names: Names::default(), faults: Vec::new() }.job()
 }

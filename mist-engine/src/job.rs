@@ -28,12 +28,15 @@ pub struct Options {
     pub seed: u64,
     /// What a run may cost.
     pub limits: Limits,
+    /// Variables, as the program writes their names, that have other values than it gives them.
+    pub values: Vec<(String, f64)>,
 }
 
 impl Default for Options {
     /// A sound run of a job called `job` with seed 1.
     fn default() -> Self {
-        Self { mode: Mode::Sound, job: "job".into(), seed: 1, limits: Limits::default() }
+        let (job, limits) = ("job".into(), Limits::default());
+        Self { mode: Mode::Sound, job, seed: 1, limits, values: Vec::new() }
     }
 }
 
@@ -168,6 +171,13 @@ impl Job {
     /// Whether steps must run one after the other, because the program feeds results back.
     pub fn runs_in_order(&self) -> bool {
         self.in_order
+    }
+
+    /// Titles of the results' columns: those of the loops, slowest first as they stand there, and
+    /// those of the outputs.
+    pub fn columns(&self) -> [Vec<&str>; 2] {
+        let loops = self.loops.iter().rev().flat_map(LoopPlan::titles).collect();
+        [loops, self.outputs.iter().map(|output| output.label.as_str()).collect()]
     }
 
     /// The colour files the program asks for: (what, name).

@@ -42,6 +42,7 @@ mod sweep;
 
 pub mod colour;
 pub mod compile;
+pub mod fit;
 pub mod integrate;
 pub mod job;
 pub mod material;
@@ -52,6 +53,8 @@ pub mod region;
 pub mod replay;
 pub mod run;
 pub mod sampling;
+pub mod tolerance;
+pub mod varied;
 
 pub use compile::compile;
 pub use fault::{Failure, Fault};

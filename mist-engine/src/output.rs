@@ -37,6 +37,17 @@ pub trait Sink {
     ///
     /// If the text cannot be kept; the run ends.
     fn write(&mut self, stream: Stream, text: &str) -> io::Result<()>;
+
+    /// Takes a line of the results as it is before it is rounded: what the columns of the loops
+    /// show, and the outputs. Nothing is done with it unless a sink wants it.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be kept; the run ends.
+    fn row(&mut self, loops: &[String], outputs: &[f64]) -> io::Result<()> {
+        let _ = (loops, outputs);
+        Ok(())
+    }
 }
 
 /// Keeps the texts in memory.
@@ -69,13 +80,20 @@ pub(crate) fn head(job: &Job) -> String {
         text.push_str(header.as_str());
         text.push('\n');
     }
-    let loops = job.loops.iter().rev().flat_map(|each| each.titles());
-    for title in loops.chain(job.outputs.iter().map(|output| output.label.as_str())) {
+    for title in job.columns().into_iter().flatten() {
         text.push_str(title);
         text.push('\t');
     }
     text.push('\n');
     text
+}
+
+/// A line of the results.
+pub(crate) struct Line {
+    pub(crate) text: String,
+    /// What the columns of the loops show.
+    pub(crate) loops: Vec<String>,
+    pub(crate) outputs: Vec<f64>,
 }
 
 /// The values that outputs see: a step's variables and integrals, labels of earlier steps.
@@ -92,7 +110,7 @@ impl<'j> Outputs<'j> {
     }
 
     /// The line of `step`, whose integrals came out as `integrals`.
-    pub(crate) fn line(&mut self, step: &Step, integrals: &[f64]) -> Result<String, Fault> {
+    pub(crate) fn line(&mut self, step: &Step, integrals: &[f64]) -> Result<Line, Fault> {
         let job = self.job;
         let predefined =
             [(job.required.pi, 4.0 * 1f64.atan()), (job.required.deg, 4.0 * 1f64.atan() / 180.0)];
@@ -107,18 +125,23 @@ impl<'j> Outputs<'j> {
         for (plan, value) in job.integrals.iter().zip(integrals) {
             self.scope.set(plan.slot, (*value).into());
         }
-        let mut line = String::new();
+        let mut text = String::new();
+        let mut loops = Vec::with_capacity(step.columns.len());
         for cell in &step.columns {
-            line.push_str(&self.cell(cell)?);
-            line.push('\t');
+            let cell = self.cell(cell)?;
+            text.push_str(&cell);
+            text.push('\t');
+            loops.push(cell);
         }
+        let mut outputs = Vec::with_capacity(job.outputs.len());
         for output in &job.outputs {
             let value = self.number_at(&output.expr, &output.text)?;
             self.scope.set(output.slot, value.into());
-            line.push_str(&job.format.format(value));
+            text.push_str(&job.format.format(value));
+            outputs.push(value);
         }
-        line.push('\n');
-        Ok(line)
+        text.push('\n');
+        Ok(Line { text, loops, outputs })
     }
 
     fn cell(&mut self, cell: &Cell) -> Result<String, Fault> {

@@ -149,7 +149,8 @@ impl<'a> Runner<'a> {
             self.sink.write(Stream::Listing, &step.listing)?;
             let line =
                 self.outputs.line(step, &values).map_err(|fault| at_step(step.index, fault))?;
-            self.sink.write(Stream::Results, &line)?;
+            self.sink.write(Stream::Results, &line.text)?;
+            self.sink.row(&line.loops, &line.outputs)?;
             if let Some(fold) = &mut self.fold {
                 fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
             }

@@ -5,10 +5,12 @@
 mod bridge;
 mod check;
 mod color;
+mod compare_spectra;
 mod convert;
 mod diff;
 mod eval;
 mod export;
+mod fit;
 mod fmt;
 mod material;
 mod models;
@@ -17,6 +19,8 @@ mod serve;
 mod source;
 mod stop;
 mod table;
+mod tolerance;
+mod vary;
 
 use std::{io::Write, process::ExitCode};
 
@@ -57,6 +61,9 @@ enum Command {
     Fmt(fmt::Args),
     Convert(convert::Args),
     Diff(diff::Args),
+    CompareSpectra(compare_spectra::Args),
+    Fit(Box<fit::Args>),
+    Tolerance(tolerance::Args),
     Serve(serve::Args),
 }
 
@@ -70,6 +77,9 @@ pub fn main() -> ExitCode {
         Command::Fmt(args) => fmt::fmt(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Diff(args) => diff::diff(&args),
+        Command::CompareSpectra(args) => compare_spectra::compare_spectra(&args),
+        Command::Fit(args) => fit::fit(&args),
+        Command::Tolerance(args) => tolerance::tolerance(&args),
         Command::Table(args) => table::table(&args),
         Command::Export(args) => export::export(&args),
         Command::Bridge(args) => bridge::bridge(&args),

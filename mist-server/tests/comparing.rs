@@ -80,3 +80,90 @@ fn pictures_that_cannot_be_compared_are_refused() {
     assert!(stderr(folder, &["diff", "a.png", "a.png", "--map", "m.gif"], 2).contains("m.gif"));
     stderr(folder, &["diff", "a.png", "a.png", "--display-size", "3"], 2);
 }
+
+/// A grey diffuser of the radiance factor rho in a goniometer with a gain, and its colour.
+const PROGRAM: &str = "
+    MODEL = Lambertian_BRDF_Model
+    VARIABLES:
+      incidentangle = 0   incidentpol = (1,0,0,0)   rotation = 0
+      differential = 0.001   minsamples = 5   wl = 550   gain = 1
+      rho = 0.3   $reflectance = Table_Reflectance   #reflectance.table = rho*(1+wl/1000)
+      omega = 4*atan(1)*sin(0.02)^2*cos(0.7)
+    END
+    VARY: FOR wl FROM 360 TO 760 BY 40 END
+    INTEGRALS: I = CIRCLE CENTER = (0.7,0) ALPHA = 0.02 END END
+    OUTPUTS:
+      1 f=I/omega
+      2 signal=gain*I/omega
+    END
+    FILES: results = out.dat header = \"Measured by hand\" END
+    COLOR:
+      wavelength = wl/1000 spectrum = f quantity = brdf illuminant = D65
+      observer = CIE1931_2 space = sRGB adaptation = Bradford spectra = out.mspd
+    END
+";
+
+#[test]
+fn the_results_of_a_program_are_fitted_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("true.mist"), PROGRAM.replace("rho = 0.3", "rho = 0.21")).unwrap();
+    fs::write(folder.join("start.mist"), PROGRAM).unwrap();
+    stdout(folder, &["run", "true.mist"]);
+    let fit = |vary, file| ["fit", "start.mist", "--measured", file, "--vary", vary, "--json"];
+    let found = json(folder, &fit("rho", "out.dat"));
+    let rho = &found["parameters"][0];
+    // The table has six digits.
+    assert!((rho["value"].as_f64().unwrap() - 0.21).abs() < 1e-6, "{found}");
+    let interval = &rho["interval"];
+    assert!(interval[0].as_f64() < Some(0.21001) && interval[1].as_f64() > Some(0.20999));
+    let said = stdout(folder, &fit("rho,gain", "out.dat")[..6]);
+    assert!(said.contains("95 %") && said.contains("correlation"), "{said}");
+    // Without the column f only the product of rho and gain is measured.
+    let table = fs::read_to_string(folder.join("out.dat")).unwrap();
+    fs::write(folder.join("product.dat"), table.replace("\tf\t", "\tother\t")).unwrap();
+    let said = stderr(folder, &fit("rho,gain", "product.dat"), 1);
+    assert!(said.contains("gain cannot be determined") && said.contains("rho"), "{said}");
+    let said = stderr(folder, &fit("roh", "out.dat"), 2);
+    assert!(said.contains("did you mean `rho`?"), "{said}");
+    fs::write(folder.join("few.dat"), "wl f\n360 0.1\n").unwrap();
+    assert!(stderr(folder, &fit("rho", "few.dat"), 2).contains("at least 2 are needed"));
+}
+
+#[test]
+fn tolerances_are_told_per_unit_of_each_variable() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("a.mist"), PROGRAM).unwrap();
+    let found = json(folder, &["tolerance", "a.mist", "--vary", "rho,gain", "--json"]);
+    let [rho, gain] = [0, 1].map(|at: usize| found["parameters"][at]["largest"].as_f64().unwrap());
+    assert!(rho > 10.0 && gain == 0.0, "{found}");
+    let said = stdout(folder, &["tolerance", "a.mist", "--vary", "rho"]);
+    assert!(said.contains("moves a colour by 1 dE") && said.contains("dL*"), "{said}");
+    stderr(folder, &["tolerance", "a.mist", "--vary", "wl"], 2);
+}
+
+#[test]
+fn a_simulated_spectrum_is_compared_with_a_measured_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("a.mist"), PROGRAM).unwrap();
+    stdout(folder, &["run", "a.mist"]);
+    // Twice the simulated radiance factor.
+    let lines = (0..=10).map(|i| 360.0 + 40.0 * f64::from(i));
+    let text: String =
+        lines.map(|nm| format!("{nm} {}\n", 2.0 * 0.3 * (1.0 + nm / 1000.0))).collect();
+    fs::write(folder.join("measured.txt"), text).unwrap();
+    let arguments = ["compare-spectra", "measured.txt", "out.mspd", "--plot", "a.svg", "--json"];
+    let found = json(folder, &arguments);
+    let found = &found["comparisons"][0];
+    // The circle is sampled in a few directions.
+    assert!((found["scale"].as_f64().unwrap() - 2.0).abs() < 0.04, "{found}");
+    assert!(found["correlation"].as_f64().unwrap() > 0.999_999, "{found}");
+    assert!(found["scaled_ciede2000"].as_f64().unwrap() < 0.05, "{found}");
+    let picture = fs::read_to_string(folder.join("a.svg")).unwrap();
+    assert!(picture.starts_with("<svg") && picture.matches("<circle").count() == 11);
+    let said = stdout(folder, &arguments[..3]);
+    assert!(said.contains("best factor") && said.contains("CIEDE2000"), "{said}");
+    stderr(folder, &["compare-spectra", "measured.txt", "none.txt"], 2);
+}

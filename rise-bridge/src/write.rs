@@ -10,7 +10,7 @@ mod rows;
 pub use json::json;
 pub use mspd::{component_name, mspd};
 pub use mtab::mtab;
-pub use plot::plot;
+pub use plot::{plot, plot_comparisons};
 
 pub(crate) use header::MAGIC;
 pub(crate) use rows::checksum;

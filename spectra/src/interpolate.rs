@@ -8,6 +8,7 @@ mod linear;
 mod sprague;
 
 pub(crate) use cubic::interpolate as cubic_spline;
+pub(crate) use linear::interpolate as straight_lines;
 
 use crate::{
     name::{Named, UnknownName},

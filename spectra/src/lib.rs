@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod adaptation;
 pub mod astm;
 pub mod case;
+pub mod compare;
 mod data;
 pub mod difference;
 pub mod filter;

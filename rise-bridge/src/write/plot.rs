@@ -5,6 +5,7 @@
 
 mod display;
 mod graph;
+mod pair;
 mod swatch;
 
 use std::fmt::Write as _;
@@ -12,6 +13,7 @@ use std::fmt::Write as _;
 use mist_engine::colour::ColourTable;
 
 use display::Display;
+pub use pair::plot_comparisons;
 
 /// Width of the picture, in pixels.
 const WIDTH: f64 = 900.0;

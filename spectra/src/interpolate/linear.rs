@@ -3,7 +3,7 @@
 use super::locate;
 
 /// Interpolates samples `y` at ascending `x`; `at` lies within `x`.
-pub(super) fn interpolate(x: &[f64], y: &[f64], at: &[f64], out: &mut [f64]) {
+pub(crate) fn interpolate(x: &[f64], y: &[f64], at: &[f64], out: &mut [f64]) {
     for (out, &at) in out.iter_mut().zip(at) {
         let (i, t) = locate(x, at);
         // This form gives both samples exactly.

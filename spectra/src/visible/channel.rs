@@ -13,9 +13,6 @@ use super::{cortex, transform::Transform};
 
 /// W of Daly's elevation.
 const MASKING: f64 = 6.0;
-/// Slope of the psychometric function.
-const SLOPE: f64 = 3.5;
-
 /// The probability that `test` is seen to differ from `reference`, both in units of threshold.
 pub(super) fn detect(
     test: &[f64],
@@ -35,11 +32,16 @@ pub(super) fn detect(
         });
         exponent.par_iter_mut().enumerate().for_each(|(i, exponent)| {
             let masked = raised_t[i].min(raised_r[i]).max(1.0);
-            *exponent += ((t[i] - r[i]).abs() / masked).powf(SLOPE);
+            *exponent += steep((t[i] - r[i]).abs() / masked);
         });
     }
     // 1 − Π exp(−x_c) = 1 − exp(−Σ x_c).
     exponent.par_iter().map(|x| 1.0 - (-x).exp()).collect()
+}
+
+/// The psychometric function's x^3.5, faster than a general power.
+fn steep(x: f64) -> f64 {
+    x * x * x * x.sqrt()
 }
 
 /// e(c).

@@ -129,7 +129,7 @@ impl Transform {
                 for (row, out) in rows.chunks_mut(half).zip(out.chunks_mut(self.width)) {
                     // A real picture has real numbers here; filters of odd symmetry leave others.
                     row[0].im = 0.0;
-                    if self.width % 2 == 0 {
+                    if self.width.is_multiple_of(2) {
                         row[half - 1].im = 0.0;
                     }
                     self.row_back

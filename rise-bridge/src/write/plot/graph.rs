@@ -7,7 +7,7 @@ use mist_format::number::general;
 
 use super::{Display, MARGIN, WIDTH, spread, text};
 
-const HEIGHT: f64 = 320.0;
+pub(super) const HEIGHT: f64 = 320.0;
 /// Room for the numbers left of the axis.
 const LEFT: f64 = 64.0;
 /// More curves than this cannot be told apart.
@@ -18,7 +18,7 @@ const LINEAR_SPREAD: f64 = 30.0;
 const DECADES: f64 = 4.0;
 
 /// Where values stand on the paper.
-struct Axes {
+pub(super) struct Axes {
     wavelengths: [f64; 2],
     values: [f64; 2],
     logarithmic: bool,
@@ -26,12 +26,17 @@ struct Axes {
 }
 
 impl Axes {
-    fn x(&self, wavelength: f64) -> f64 {
+    /// Linear axes whose upper edge is at `top`.
+    pub(super) fn linear(wavelengths: [f64; 2], values: [f64; 2], top: f64) -> Self {
+        Self { wavelengths, values, logarithmic: false, top }
+    }
+
+    pub(super) fn x(&self, wavelength: f64) -> f64 {
         let [low, high] = self.wavelengths;
         LEFT + MARGIN + (wavelength - low) / (high - low) * (WIDTH - LEFT - 2.0 * MARGIN)
     }
 
-    fn y(&self, value: f64) -> f64 {
+    pub(super) fn y(&self, value: f64) -> f64 {
         let [low, high] = self.values;
         let part = if self.logarithmic {
             (value.max(low) / low).ln() / (high / low).ln()
@@ -100,7 +105,7 @@ fn axes(table: &ColourTable, shown: &[usize], top: f64) -> Axes {
     Axes { wavelengths: [first, last], values, logarithmic, top }
 }
 
-fn draw_axes(axes: &Axes, quantity: &str, svg: &mut String) {
+pub(super) fn draw_axes(axes: &Axes, quantity: &str, svg: &mut String) {
     let [low, high] = axes.wavelengths.map(|w| axes.x(w));
     let bottom = axes.top + HEIGHT;
     for value in axes.value_ticks() {
@@ -119,7 +124,7 @@ fn draw_axes(axes: &Axes, quantity: &str, svg: &mut String) {
     text(svg, (low, bottom + 34.0), "", &format!("curves: {quantity}"));
 }
 
-fn line(svg: &mut String, (x1, y1): (f64, f64), (x2, y2): (f64, f64), colour: &str) {
+pub(super) fn line(svg: &mut String, (x1, y1): (f64, f64), (x2, y2): (f64, f64), colour: &str) {
     // Writing to a string cannot fail.
     let _ = writeln!(
         svg,

@@ -1,0 +1,371 @@
+//! A table of measured values: which lines of a program's results it is about, and what was
+//! measured there.
+//!
+//! The first line names the columns, like the results of the program; lines above it that the
+//! program writes there too, blank lines and lines that begin with `#` do not count. Names are
+//! separated by tabs, else by commas, else by blanks.
+//!
+//! | column | holds |
+//! | --- | --- |
+//! | the title of a loop | its value: which line of the results the row is about |
+//! | the label of an output | the measured value; `nan` where there is none |
+//! | `sigma(LABEL)` | its uncertainty σ > 0 |
+//! | `sigma` | the uncertainty of every output of the row that has no column of its own |
+//! | `weight` | 1/σ² in place of σ, ≥ 0; zero leaves the row out |
+//!
+//! A table without any column of a loop has a row for every line of the results, in its order.
+
+use std::collections::BTreeMap;
+
+use crate::varied::Row;
+
+/// Loop values are printed with six digits; nothing closer than this can be told apart.
+const SAME: f64 = 2e-6;
+
+/// What was measured in one place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Datum {
+    /// Row of the table, from 1.
+    pub row: usize,
+    /// Output of the program.
+    pub output: usize,
+    /// The measured value.
+    pub value: f64,
+    /// Its uncertainty.
+    pub sigma: f64,
+}
+
+/// A table of measured values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The loops that have a column.
+    loops: Vec<usize>,
+    /// Values of those loops, row by row.
+    places: Vec<Vec<String>>,
+    data: Vec<Datum>,
+    ignored: Vec<String>,
+}
+
+/// What is wrong with a table of measured values.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeasuredError {
+    /// There is no line with names.
+    #[error("the measured table has no line that names its columns")]
+    Empty,
+    /// No column is an output.
+    #[error("no column of the measured table is an output of the program; its outputs are {0}")]
+    NoOutput(String),
+    /// A name stands twice.
+    #[error("the measured table has two columns {0:?}")]
+    Twice(String),
+    /// A row has too few or too many cells.
+    #[error("line {line}: {found} values for {expected} columns")]
+    Width {
+        /// Line of the file, from 1.
+        line: usize,
+        /// Values in the row.
+        found: usize,
+        /// Columns.
+        expected: usize,
+    },
+    /// A cell cannot be used.
+    #[error("line {line}, column {column:?}: {text:?} is not {expected}")]
+    Cell {
+        /// Line of the file, from 1.
+        line: usize,
+        /// Name of the column.
+        column: String,
+        /// What stands there.
+        text: String,
+        /// What should.
+        expected: &'static str,
+    },
+    /// Rows and lines of the results cannot be brought together.
+    #[error(
+        "the measured table has {rows} rows and no column of a loop, but the program gives \
+         {lines} lines; add the columns {loops}"
+    )]
+    Count {
+        /// Rows.
+        rows: usize,
+        /// Lines of the results.
+        lines: usize,
+        /// The loops.
+        loops: String,
+    },
+    /// No line of the results, or more than one, has the loop values of a row.
+    #[error("row {row} of the measured table ({place}): {found} lines of the results are there")]
+    Place {
+        /// Row, from 1.
+        row: usize,
+        /// Its loop values.
+        place: String,
+        /// How many lines have them.
+        found: usize,
+    },
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Role {
+    Loop(usize),
+    Output(usize),
+    Sigma(usize),
+    SigmaOfAll,
+    Weight,
+    Ignored,
+}
+
+impl Measured {
+    /// Reads a table for a program whose results have the columns `loops` and `outputs` and the
+    /// lines `headers` above them.
+    ///
+    /// # Errors
+    ///
+    /// See [`MeasuredError`].
+    pub fn parse(
+        text: &str,
+        [loops, outputs]: &[Vec<String>; 2],
+        headers: &[String],
+    ) -> Result<Self, MeasuredError> {
+        let text = text.trim_start_matches('\u{feff}');
+        let lines = (1..).zip(text.lines()).filter(|(number, line)| {
+            let header = headers.get(number - 1).is_some_and(|header| header.trim() == line.trim());
+            !header && !line.trim().is_empty() && !line.starts_with('#')
+        });
+        let mut lines = lines.peekable();
+        let (_, first) = lines.next().ok_or(MeasuredError::Empty)?;
+        let names = names(first);
+        let roles: Vec<Role> = names.iter().map(|name| role(name, loops, outputs)).collect();
+        for (at, name) in names.iter().enumerate() {
+            if roles[at] != Role::Ignored && names[..at].contains(name) {
+                return Err(MeasuredError::Twice(name.clone()));
+            }
+        }
+        if !roles.iter().any(|role| matches!(role, Role::Output(_))) {
+            return Err(MeasuredError::NoOutput(outputs.join(", ")));
+        }
+        let commas = !first.contains('\t') && first.contains(',');
+        let mut table = Self {
+            loops: roles.iter().filter_map(|role| role.of_loop()).collect(),
+            places: Vec::new(),
+            data: Vec::new(),
+            ignored: names_of(&names, &roles, Role::Ignored),
+        };
+        for (line, text) in lines {
+            let cells: Vec<&str> = match commas {
+                true => text.split(',').map(str::trim).collect(),
+                false => text.split_whitespace().collect(),
+            };
+            if cells.len() != names.len() {
+                let (found, expected) = (cells.len(), names.len());
+                return Err(MeasuredError::Width { line, found, expected });
+            }
+            table.add(line, &cells, &names, &roles)?;
+        }
+        Ok(table)
+    }
+
+    /// The data.
+    pub fn data(&self) -> &[Datum] {
+        &self.data
+    }
+
+    /// Names of columns that mean nothing here.
+    pub fn ignored(&self) -> &[String] {
+        &self.ignored
+    }
+
+    fn add(
+        &mut self,
+        line: usize,
+        cells: &[&str],
+        names: &[String],
+        roles: &[Role],
+    ) -> Result<(), MeasuredError> {
+        let row = self.places.len() + 1;
+        let number = |at: usize, expected, good: fn(f64) -> bool| {
+            let value = cells[at].parse().ok().filter(|value| good(*value));
+            value.ok_or_else(|| MeasuredError::Cell {
+                line,
+                column: names[at].clone(),
+                text: cells[at].to_owned(),
+                expected,
+            })
+        };
+        let mut place = Vec::new();
+        let mut values = Vec::new();
+        let mut sigmas = BTreeMap::new();
+        let mut common = 1.0;
+        for (at, role) in roles.iter().enumerate() {
+            match role {
+                Role::Loop(_) => place.push(cells[at].to_owned()),
+                Role::Output(output) => {
+                    let value = number(at, "a number", |v| v.is_nan() || v.is_finite())?;
+                    values.push((*output, value));
+                }
+                Role::Sigma(output) => {
+                    let sigma = number(at, "a positive number", |v| v > 0.0 && v.is_finite())?;
+                    sigmas.insert(*output, sigma);
+                }
+                Role::SigmaOfAll => {
+                    common = number(at, "a positive number", |v| v > 0.0 && v.is_finite())?;
+                }
+                Role::Weight => {
+                    let weight = number(at, "zero or a positive number", |v| v >= 0.0)?;
+                    common = 1.0 / f64::sqrt(weight);
+                }
+                Role::Ignored => {}
+            }
+        }
+        for (output, value) in values.into_iter().filter(|(_, value)| !value.is_nan()) {
+            let sigma = sigmas.get(&output).copied().unwrap_or(common);
+            if sigma.is_finite() {
+                self.data.push(Datum { row, output, value, sigma });
+            }
+        }
+        self.places.push(place);
+        Ok(())
+    }
+
+    /// For every datum the line of the results that it is about.
+    ///
+    /// # Errors
+    ///
+    /// If rows and lines cannot be brought together.
+    pub(super) fn locate(
+        &self,
+        rows: &[Row],
+        titles: &[String],
+    ) -> Result<Vec<usize>, MeasuredError> {
+        if self.loops.is_empty() {
+            if self.places.len() != rows.len() {
+                let (found, lines) = (self.places.len(), rows.len());
+                let loops = titles.join(", ");
+                return Err(MeasuredError::Count { rows: found, lines, loops });
+            }
+            return Ok(self.data.iter().map(|datum| datum.row - 1).collect());
+        }
+        let line = |(at, place): (usize, &Vec<String>)| {
+            let here = |row: &&Row| {
+                self.loops.iter().zip(place).all(|(each, cell)| same(&row.loops[*each], cell))
+            };
+            let found = rows.iter().filter(here).count();
+            match rows.iter().position(|row| here(&row)) {
+                Some(line) if found == 1 => Ok(line),
+                _ => {
+                    let named = self.loops.iter().zip(place);
+                    let named = named.map(|(each, cell)| format!("{} = {cell}", titles[*each]));
+                    let place = named.collect::<Vec<_>>().join(", ");
+                    Err(MeasuredError::Place { row: at + 1, place, found })
+                }
+            }
+        };
+        let lines = self.places.iter().enumerate().map(line);
+        let lines: Vec<usize> = lines.collect::<Result<_, _>>()?;
+        Ok(self.data.iter().map(|datum| lines[datum.row - 1]).collect())
+    }
+}
+
+impl Role {
+    fn of_loop(self) -> Option<usize> {
+        match self {
+            Self::Loop(at) => Some(at),
+            _ => None,
+        }
+    }
+}
+
+fn names(line: &str) -> Vec<String> {
+    let line = line.trim_end();
+    let names: Vec<&str> = if line.contains('\t') {
+        line.split('\t').collect()
+    } else if line.contains(',') {
+        line.split(',').collect()
+    } else {
+        line.split_whitespace().collect()
+    };
+    names.into_iter().map(|name| name.trim().to_owned()).collect()
+}
+
+fn role(name: &str, loops: &[String], outputs: &[String]) -> Role {
+    let find = |list: &[String], name: &str| list.iter().position(|each| each == name);
+    let inner = name.strip_prefix("sigma(").and_then(|rest| rest.strip_suffix(')'));
+    if let Some(at) = find(outputs, name) {
+        Role::Output(at)
+    } else if let Some(at) = find(loops, name) {
+        Role::Loop(at)
+    } else if let Some(at) = inner.and_then(|label| find(outputs, label)) {
+        Role::Sigma(at)
+    } else {
+        match name {
+            "sigma" => Role::SigmaOfAll,
+            "weight" => Role::Weight,
+            _ => Role::Ignored,
+        }
+    }
+}
+
+fn names_of(names: &[String], roles: &[Role], wanted: Role) -> Vec<String> {
+    names.iter().zip(roles).filter(|(_, role)| **role == wanted).map(|(n, _)| n.clone()).collect()
+}
+
+/// Whether a cell of the results and one of the table are the same loop value.
+fn same(line: &str, cell: &str) -> bool {
+    match (line.trim().parse::<f64>(), cell.parse::<f64>()) {
+        (Ok(a), Ok(b)) => (a - b).abs() <= SAME * a.abs().max(b.abs()),
+        _ => line.trim() == cell,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn titles() -> [Vec<String>; 2] {
+        [vec!["angle".into()], vec!["R".into(), "the sum".into()]]
+    }
+
+    fn rows() -> Vec<Row> {
+        [0.1, 0.2, 0.3].map(|a: f64| Row { loops: vec![a.to_string()], outputs: vec![] }).into()
+    }
+
+    #[test]
+    fn results_of_the_program_are_a_table() {
+        let headers = ["A title, with a comma".to_owned()];
+        let text = "A title, with a comma\nangle\tR\tthe sum\t\n0.1\t  1\t  2\t\n0.2\t3\t nan\t\n";
+        let table = Measured::parse(text, &titles(), &headers).unwrap();
+        let values: Vec<_> = table.data().iter().map(|d| (d.row, d.output, d.value)).collect();
+        assert_eq!(values, [(1, 0, 1.0), (1, 1, 2.0), (2, 0, 3.0)]);
+        assert_eq!(table.locate(&rows(), &titles()[0]).unwrap(), [0, 0, 1]);
+    }
+
+    #[test]
+    fn rows_may_stand_in_any_order_and_have_uncertainties() {
+        let text = "# by hand\nR,angle,sigma(R),note\n5,0.3000001,0.5,x\n4,0.1,0.25,y\n";
+        let table = Measured::parse(text, &titles(), &[]).unwrap();
+        assert_eq!(table.locate(&rows(), &titles()[0]).unwrap(), [2, 0]);
+        assert_eq!(table.data()[1].sigma, 0.25);
+        assert_eq!(table.ignored(), ["note"]);
+        let text = "R weight\n1 4\n2 0\n3 1\n";
+        let table = Measured::parse(text, &titles(), &[]).unwrap();
+        let sigmas: Vec<_> = table.data().iter().map(|d| (d.row, d.sigma)).collect();
+        assert_eq!(sigmas, [(1, 0.5), (3, 1.0)]);
+        assert_eq!(table.locate(&rows(), &titles()[0]).unwrap(), [0, 2]);
+    }
+
+    #[test]
+    fn tables_that_do_not_fit_are_refused() {
+        let parse = |text| Measured::parse(text, &titles(), &[]);
+        assert_eq!(parse(" \n"), Err(MeasuredError::Empty));
+        assert!(matches!(parse("angle\n1\n"), Err(MeasuredError::NoOutput(_))));
+        assert!(matches!(parse("R R\n1 1\n"), Err(MeasuredError::Twice(_))));
+        assert!(matches!(parse("R angle\n1\n"), Err(MeasuredError::Width { line: 2, .. })));
+        assert!(matches!(parse("R\n1,5\n"), Err(MeasuredError::Cell { line: 2, .. })));
+        assert!(matches!(parse("R sigma\n1 0\n"), Err(MeasuredError::Cell { line: 2, .. })));
+        let locate = |text| parse(text).unwrap().locate(&rows(), &titles()[0]);
+        assert!(matches!(locate("R\n1\n"), Err(MeasuredError::Count { .. })));
+        let far = locate("R angle\n1 0.4\n");
+        assert!(matches!(far, Err(MeasuredError::Place { found: 0, .. })));
+    }
+}

@@ -1,0 +1,227 @@
+//! A program as a function of some of its variables.
+//!
+//! [`Varied::run`] gives the rows and the colours of the program with other values for the named
+//! variables; everything else, apertures and loops included, stays what the program says.
+
+use std::{io, sync::Arc};
+
+use mist_format::{Diagnostic, program::VariableKind, suggestion::did_you_mean};
+
+use crate::{Control, Failure, Files, Job, Options, Sink, Stream, colour::ColourTable, compile};
+
+/// A program and the variables that change.
+pub struct Varied {
+    source: String,
+    files: Arc<dyn Files + Send + Sync>,
+    options: Options,
+    names: Vec<String>,
+    start: Vec<f64>,
+    titles: [Vec<String>; 2],
+    headers: Vec<String>,
+}
+
+/// One run of a program.
+#[derive(Debug, Default)]
+pub struct Ran {
+    /// The lines of the results.
+    pub rows: Vec<Row>,
+    /// The colours, if the program has a section COLOR.
+    pub colour: Option<ColourTable>,
+}
+
+/// A line of the results, unrounded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    /// What the columns of the loops show.
+    pub loops: Vec<String>,
+    /// The outputs.
+    pub outputs: Vec<f64>,
+}
+
+/// Why a variable cannot be varied.
+#[derive(Debug, thiserror::Error)]
+pub enum VariedError {
+    /// No variables were named.
+    #[error("no variable is named that should vary")]
+    Nothing,
+    /// There is no such variable.
+    #[error("the program has no variable {name:?}{}", suggestion(.help))]
+    Unknown {
+        /// The name.
+        name: String,
+        /// What may have been meant.
+        help: Option<String>,
+    },
+    /// The variable is named twice, or assigned more than once in the program.
+    #[error("{0:?} is named or assigned more than once; it must have one value in VARIABLES")]
+    Twice(String),
+    /// A loop writes the variable.
+    #[error("{0:?} is varied by a loop of the program; take the loop out or name another variable")]
+    Looped(String),
+    /// The variable is no number.
+    #[error("{0:?} is not one number, so it cannot vary")]
+    NoNumber(String),
+    /// The program cannot be compiled.
+    #[error("the program is wrong")]
+    Program(Vec<Diagnostic>),
+}
+
+fn suggestion(help: &Option<String>) -> String {
+    help.as_ref().map_or_else(String::new, |help| format!("; {help}"))
+}
+
+impl Varied {
+    /// The program `source` as a function of the variables `names`. A parameter of the model is
+    /// named with or without its `#`.
+    ///
+    /// # Errors
+    ///
+    /// If the program is wrong, or one of the variables cannot vary.
+    pub fn new(
+        source: &str,
+        files: Arc<dyn Files + Send + Sync>,
+        options: Options,
+        names: &[String],
+    ) -> Result<Self, VariedError> {
+        let job = compile(source, files.clone(), &options).map_err(VariedError::Program)?;
+        if names.is_empty() {
+            return Err(VariedError::Nothing);
+        }
+        let mut found: Vec<String> = Vec::new();
+        let mut start = Vec::new();
+        for name in names {
+            let (name, value) = job.variable(name)?;
+            if found.contains(&name) {
+                return Err(VariedError::Twice(name));
+            }
+            found.push(name);
+            start.push(value);
+        }
+        let titles = job.columns().map(|titles| titles.into_iter().map(str::to_owned).collect());
+        let headers = job.program().files.headers();
+        let headers = headers.map(|header| header.as_str().to_owned()).collect();
+        Ok(Self { source: source.to_owned(), files, options, names: found, start, titles, headers })
+    }
+
+    /// The variables, as the program writes them.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The values that the program gives them.
+    pub fn start(&self) -> &[f64] {
+        &self.start
+    }
+
+    /// Titles of the columns of the loops, and of the outputs.
+    pub fn titles(&self) -> &[Vec<String>; 2] {
+        &self.titles
+    }
+
+    /// The lines that stand above the titles in the results of the program.
+    pub fn headers(&self) -> &[String] {
+        &self.headers
+    }
+
+    /// Runs the program with `values` for the variables.
+    ///
+    /// # Errors
+    ///
+    /// As [`Job::run`]; a value that the model cannot take is one of them.
+    pub fn run(&self, values: &[f64], control: &Control) -> Result<Ran, Failure> {
+        let named = self.names.iter().cloned().zip(values.iter().copied());
+        let options = Options { values: named.collect(), ..self.options.clone() };
+        let job = compile(&self.source, self.files.clone(), &options).map_err(Failure::Program)?;
+        let mut ran = Ran::default();
+        let once = Control { cancel: control.cancel.clone(), progress: None };
+        let colour = job.run(&mut ran, &once)?.colour;
+        Ok(Ran { colour, ..ran })
+    }
+}
+
+impl Sink for Ran {
+    fn write(&mut self, _: Stream, _: &str) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn row(&mut self, loops: &[String], outputs: &[f64]) -> io::Result<()> {
+        self.rows.push(Row { loops: loops.to_vec(), outputs: outputs.to_vec() });
+        Ok(())
+    }
+}
+
+impl Job {
+    /// The variable that `name` means, as the program writes it, and its value.
+    fn variable(&self, name: &str) -> Result<(String, f64), VariedError> {
+        let written = |entry: &crate::job::Entry| {
+            self.program.variables[entry.variable].name.as_str().to_owned()
+        };
+        let means = |entry: &crate::job::Entry| {
+            let written = written(entry);
+            written == name || written.strip_prefix('#') == Some(name)
+        };
+        let mut all = (0..).zip(&self.entries).filter(|(_, entry)| means(entry));
+        let Some((at, entry)) = all.next() else {
+            let names: Vec<String> = self.entries.iter().map(written).collect();
+            let help = did_you_mean(name, names.iter().map(String::as_str));
+            return Err(VariedError::Unknown { name: name.to_owned(), help });
+        };
+        let name = written(entry);
+        if all.next().is_some() {
+            return Err(VariedError::Twice(name));
+        }
+        if self.loops.iter().any(|each| each.entries().contains(&at)) {
+            return Err(VariedError::Looped(name));
+        }
+        let is_text = self.program.variables[entry.variable].kind == VariableKind::Literal;
+        let value = self.initial.iter().find(|(slot, _)| Some(*slot) == entry.slot);
+        match value.map(|(_, value)| value.as_slice()) {
+            Some([value]) if !is_text => Ok((name, *value)),
+            _ => Err(VariedError::NoNumber(name)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::MemoryFiles;
+
+    const PROGRAM: &str = "
+        MODEL = Lambertian_BRDF_Model
+        VARIABLES:
+          incidentangle = 0.5   incidentpol = (1,0,0,0)   rotation = 0
+          differential = 0.01   minsamples = 20   x = 1
+          rho = 0.25   double = 2*rho   $reflectance = Table_Reflectance   #reflectance.table = double
+
+        END
+        VARY: FOR x FROM 1 TO 2 BY 1 END
+        INTEGRALS: R = HEMI END END
+        OUTPUTS: 1 R END
+        FILES: END
+    ";
+
+    fn varied(names: &[&str]) -> Result<Varied, VariedError> {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        Varied::new(PROGRAM, Arc::new(MemoryFiles::default()), Options::default(), &names)
+    }
+
+    #[test]
+    fn what_depends_on_a_variable_follows_it() {
+        let varied = varied(&["rho"]).unwrap();
+        assert_eq!((varied.start(), varied.titles()[1].len()), (&[0.25][..], 1));
+        let at = |rho| varied.run(&[rho], &Control::default()).unwrap().rows[1].outputs[0];
+        // The model is linear in its reflectance.
+        assert!((at(0.1) / at(0.25) - 0.4).abs() < 1e-14);
+    }
+
+    #[test]
+    fn variables_that_cannot_vary_are_told_apart() {
+        assert!(matches!(varied(&["roh"]), Err(VariedError::Unknown { help: Some(_), .. })));
+        assert!(matches!(varied(&["x"]), Err(VariedError::Looped(_))));
+        assert!(matches!(varied(&["incidentpol"]), Err(VariedError::NoNumber(_))));
+        assert!(matches!(varied(&["$reflectance"]), Err(VariedError::NoNumber(_))));
+        assert!(matches!(varied(&["rho", "rho"]), Err(VariedError::Twice(_))));
+        assert!(matches!(varied(&[]), Err(VariedError::Nothing)));
+    }
+}
