@@ -14,7 +14,7 @@ mod text;
 use std::{collections::BTreeMap, sync::Arc};
 
 use mist_format::suggestion::did_you_mean;
-use scattering::{Defect, Mode, Model, ParamError, models, spec::Met};
+use scattering::{Mode, Model, Notice, ParamError, models, spec::Met};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -219,12 +219,13 @@ impl Prepared {
         self.mode
     }
 
-    /// The model, and the defects of NIST's library that a sound one steps around.
+    /// The model, and what is to be told of it: defects of NIST's library that a sound one steps
+    /// around, limits that its parameters pass.
     ///
     /// # Errors
     ///
     /// For values that the model cannot take.
-    pub fn model(&self) -> Result<(Model, Vec<Defect>), MaterialError> {
+    pub fn model(&self) -> Result<(Model, Vec<Notice>), MaterialError> {
         let met = Met::default();
         let model = models::build(&self.parameters.node(self.mode, &met))?;
         let met = met.lock().expect("no build panics").iter().copied().collect();

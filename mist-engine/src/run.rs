@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, time::Instant};
 
-use scattering::Defect;
+use scattering::{Defect, Notice};
 
 use crate::{
     Control, Failure, Job,
@@ -32,8 +32,8 @@ pub struct Summary {
     pub evaluations: f64,
     /// Seconds it took.
     pub seconds: f64,
-    /// Defects of NIST's library that a sound run stepped around.
-    pub met: BTreeSet<Defect>,
+    /// Defects of NIST's library that a sound run stepped around, limits that it passed.
+    pub met: BTreeSet<Notice>,
     /// The colour table, if the program has a section COLOR.
     pub colour: Option<ColourTable>,
 }
@@ -164,7 +164,7 @@ impl<'a> Runner<'a> {
         }
         self.summary.met.extend(self.shared.take_met());
         if block.iter().flat_map(|step| &step.integrals).any(is_cut_by_nist) {
-            self.summary.met.insert(Defect::PolygonHorizon);
+            self.summary.met.insert(Defect::PolygonHorizon.into());
         }
         Ok(())
     }

@@ -67,6 +67,6 @@ mod tests {
         assert!((integral(spec, &compat) - 2.0).abs() < 1e-9);
         let sound = Node::with_defaults(&spec.class, Mode::Sound);
         assert!((integral(spec, &sound) - 1.0).abs() < 1e-9);
-        assert!(sound.met.lock().unwrap().contains(&Defect::GammaNorm));
+        assert!(sound.met.lock().unwrap().contains(&Defect::GammaNorm.into()));
     }
 }

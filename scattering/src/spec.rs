@@ -12,7 +12,7 @@ use std::{
 };
 
 use crate::{
-    Defect, Mode,
+    Defect, Limit, Mode, Notice,
     optics::{Index, Table},
     stack::Film,
 };
@@ -327,8 +327,8 @@ impl fmt::Debug for Value {
     }
 }
 
-/// Defects of NIST's library that a sound build met; shared by a node and all below it.
-pub type Met = Arc<Mutex<BTreeSet<Defect>>>;
+/// What a build has to tell; shared by a node and all below it.
+pub type Met = Arc<Mutex<BTreeSet<Notice>>>;
 
 /// A class with a typed value for each of its parameters: all that is needed to build it.
 #[derive(Clone, Debug)]
@@ -339,7 +339,7 @@ pub struct Node {
     pub values: Vec<Value>,
     /// Sound or compat.
     pub mode: Mode,
-    /// Where a sound build notes the defects it stepped around.
+    /// Where a build notes the defects it stepped around and the limits it passed.
     pub met: Met,
 }
 
@@ -405,12 +405,20 @@ impl Node {
             Mode::Compat => true,
             Mode::Sound => {
                 if defect.is_noticeable() {
-                    let mut met = self.met.lock().expect("no build panics while it notes one");
-                    met.insert(defect);
+                    self.note(defect.into());
                 }
                 false
             }
         }
+    }
+
+    /// Notes that the parameters lie beyond `limit`.
+    pub fn passes(&self, limit: Limit) {
+        self.note(limit.into());
+    }
+
+    fn note(&self, notice: Notice) {
+        self.met.lock().expect("no build panics while it notes one").insert(notice);
     }
 
     fn value(&self, name: &str) -> &Value {

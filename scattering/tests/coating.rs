@@ -1,6 +1,18 @@
 //! Pigmented and layered coatings: energy, limits, and the printed form of the paper's body.
 
+#[path = "coating/energy.rs"]
+mod energy;
+#[path = "coating/flakes.rs"]
+mod flakes;
+#[path = "coating/immersion.rs"]
+mod immersion;
+#[path = "coating/printed.rs"]
+mod printed;
 mod reference;
+#[path = "coating/walk.rs"]
+mod walk;
+#[path = "coating/witness.rs"]
+mod witness;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -169,64 +181,6 @@ fn transmitting_flakes_show_the_body_and_spread_only_their_colour() {
     assert!((opaque - black).abs() < 1e-3, "{opaque} {black}");
     let spread = flakes(&[("flake_spread", "0.1"), ("backing.table", "0")]);
     assert!((spread - black).abs() < 0.05, "{spread} {black}");
-}
-
-/// Numbers from 0 to 1, always the same (a linear congruential generator of Knuth's).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
-#[test]
-fn no_random_coating_returns_more_light_than_came() {
-    let mut random = Random(7);
-    for case in 0..24 {
-        let mut draw = |low, high| random.between(low, high).to_string();
-        let coat = draw(1.0, 2.2);
-        let (flakes, surface) = (draw(0.1, 0.4), draw(0.1, 0.4));
-        // The tables of anisotropic slopes take longer to build.
-        let across = |x: &str, y: String| if case % 6 == 5 { y } else { x.to_owned() };
-        let (flakes_y, surface_y) =
-            (across(&flakes, draw(0.1, 0.4)), across(&surface, draw(0.1, 0.4)));
-        // Films with the binder as their core, an opaque lossless core, metal.
-        let core = match case % 3 {
-            0 => format!("({coat},0)"),
-            1 => "(0,3)".into(),
-            _ => format!("({},{})", draw(0.2, 3.0), draw(0.0, 8.0)),
-        };
-        let film = if case % 2 == 0 { "SingleFilm_StackModel" } else { "No_StackModel" };
-        let mut params = vec![
-            ("overcoat", format!("({coat},0)")),
-            ("substrate", core),
-            ("stack", film.to_owned()),
-            ("sdf", "Anisotropic_Gaussian_Slope_Distribution_Function".to_owned()),
-            ("sdf.sigmax", flakes),
-            ("sdf.sigmay", flakes_y),
-            ("surface_sdf.sigmax", surface),
-            ("surface_sdf.sigmay", surface_y),
-            // The jump at equal azimuths has no area; a quadrature could hit it.
-            ("surface_shadow.azimuth", "1".to_owned()),
-            ("flake_shadow.azimuth", "1".to_owned()),
-            ("flake_density", draw(0.0, 4e-4)),
-            ("correlation", draw(0.0, 1.0)),
-            ("particle.sphere", format!("(2.6,{})", if case % 4 == 0 { 0.0 } else { 0.01 })),
-            ("particle_radius", draw(0.05, 0.3)),
-            ("particle_density", draw(0.0, 5.0)),
-        ];
-        if film.starts_with("Single") {
-            params.push(("stack.material", "(2.4,0)".to_owned()));
-            params.push(("stack.thickness", draw(0.02, 0.2)));
-        }
-        let params: Vec<_> = params.iter().map(|(name, value)| (*name, &**value)).collect();
-        let model = pigmented(&params);
-        let theta = random.between(0.0, 1.4);
-        let returned = most(&hemisphere(&model, theta, random.between(0.0, PI), 70));
-        assert!(returned < 1.0 + 1e-6, "{params:?} at {theta}: {returned}");
-    }
 }
 
 #[test]

@@ -239,7 +239,7 @@ fn harmonics_are_paired_wrongly_in_compat_with_few_orders_only() {
     let m = |mode, mmax| {
         let node = ellipsoid_on_silicon(mode, mmax);
         let m = models::build(&node).unwrap().mueller(&at, Basis::Psps);
-        let met = node.met.lock().unwrap().contains(&scattering::Defect::AxisymmetricIndex);
+        let met = node.met.lock().unwrap().contains(&scattering::Defect::AxisymmetricIndex.into());
         (m, met)
     };
     let difference = |mmax| {

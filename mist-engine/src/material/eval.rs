@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use scattering::{Basis, Geometry, Mode, Mueller};
+use scattering::{Basis, Geometry, Mode, Mueller, Notice};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::{Material, MaterialError, text};
@@ -54,6 +54,9 @@ pub struct Response {
     /// Defects of NIST's library that a sound run stepped around: number and effect.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub defects: Vec<String>,
+    /// Limits of the model that the parameters pass.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<String>,
 }
 
 /// A number that JSON shows as it is if it is finite, else as "nan", "inf" or "-inf".
@@ -109,8 +112,23 @@ pub fn answer(
     };
     Ok(Response {
         mueller: geometries.iter().map(|angles| row(at(angles))).collect(),
-        defects: met.iter().map(ToString::to_string).collect(),
+        defects: met.iter().filter_map(defect).collect(),
+        limits: met.iter().filter_map(limit).collect(),
     })
+}
+
+fn defect(notice: &Notice) -> Option<String> {
+    match notice {
+        Notice::Defect(defect) => Some(defect.to_string()),
+        Notice::Limit(_) => None,
+    }
+}
+
+fn limit(notice: &Notice) -> Option<String> {
+    match notice {
+        Notice::Defect(_) => None,
+        Notice::Limit(limit) => Some(limit.describe().to_owned()),
+    }
 }
 
 #[cfg(test)]

@@ -165,7 +165,7 @@ impl Slot {
             Self::Formula(formula) => Value::Formula(formula.function()),
             Self::Index(index) => {
                 if index.is_misread() && mode == Mode::Sound {
-                    met.lock().expect("no build panics").insert(Defect::IndexText);
+                    met.lock().expect("no build panics").insert(Defect::IndexText.into());
                 }
                 Value::Index(index.value())
             }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use scattering::{Defect, Mode, Model, ParamError, spec::Met};
+use scattering::{Mode, Model, Notice, ParamError, spec::Met};
 
 use super::kept::Kept;
 use crate::parameters::{Fingerprint, Parameters};
@@ -20,7 +20,7 @@ pub(crate) struct ModelCell {
 /// A model with the defects that its sound build stepped around.
 pub(crate) struct Built {
     pub(crate) model: Model,
-    pub(crate) met: Vec<Defect>,
+    pub(crate) met: Vec<Notice>,
 }
 
 impl ModelCell {

@@ -4,7 +4,7 @@ use std::{collections::BTreeSet, f64::consts::FRAC_PI_2, fmt::Write as _, sync::
 
 use mist_format::number::general;
 use rayon::prelude::*;
-use scattering::{Defect, Direction, Incidence, Mueller, ParamError};
+use scattering::{Direction, Incidence, Mueller, Notice, ParamError};
 
 use super::{
     kept::{Kept, Map},
@@ -71,7 +71,7 @@ pub(crate) struct Shared<'a> {
     layouts: Kept<LayoutKey, (u64, Arc<Layout>)>,
     next_layout: u64,
     integrals: Kept<Key, Mueller>,
-    met: BTreeSet<Defect>,
+    met: BTreeSet<Notice>,
 }
 
 impl<'a> Shared<'a> {
@@ -237,7 +237,7 @@ impl<'a> Shared<'a> {
     }
 
     /// The defects met since the last call.
-    pub(crate) fn take_met(&mut self) -> BTreeSet<Defect> {
+    pub(crate) fn take_met(&mut self) -> BTreeSet<Notice> {
         std::mem::take(&mut self.met)
     }
 

@@ -148,7 +148,7 @@ fn run_one(args: &Args, program: &Path, mut control: Control) -> Result<Fate, St
     progress.finish();
     match done {
         Ok((summary, files)) => {
-            note_defects(&source.name(), &summary);
+            note(&source.name(), &summary);
             print(&describe(&options.job, &summary, &files))?;
             Ok(Fate::Good)
         }
@@ -219,12 +219,9 @@ fn describe(job: &str, summary: &Summary, files: &[Written]) -> String {
     text
 }
 
-fn note_defects(file: &str, summary: &Summary) {
-    for defect in &summary.met {
-        report::say(&format!(
-            "note: {file}: this run meets a defect of NIST's library and has the sound value \
-             (--compat reproduces NIST's) [{defect}]"
-        ));
+fn note(file: &str, summary: &Summary) {
+    for notice in &summary.met {
+        report::say(&format!("note: {file}: {notice}"));
     }
 }
 

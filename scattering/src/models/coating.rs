@@ -8,7 +8,9 @@ use super::Brdf;
 use crate::spec::Spec;
 
 mod body;
+mod closing;
 mod doubling;
+mod exchange;
 mod flakes;
 mod immersed;
 mod interface;

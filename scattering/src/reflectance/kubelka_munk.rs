@@ -130,7 +130,7 @@ mod tests {
         // K = S = 1/µm: a = 2, R∞ = 2 − √3.
         let (sound, node) = build(Mode::Sound, 1000.0);
         assert!((sound.at(0.5) - (2.0 - 3f64.sqrt())).abs() < 1e-15);
-        assert!(node.met.lock().unwrap().contains(&Defect::KubelkaOverflow));
+        assert!(node.met.lock().unwrap().contains(&Defect::KubelkaOverflow.into()));
         assert!(build(Mode::Compat, 1000.0).0.at(0.5).is_nan());
         assert!(build(Mode::Compat, 100.0).0.at(0.5).is_finite());
     }

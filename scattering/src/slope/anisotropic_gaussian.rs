@@ -7,12 +7,16 @@
 //! σ_x and σ_y (`sigmax`, `sigmay`) are the standard deviations of the slopes along the axes of
 //! the sample. With σ_x = σ_y = σ it is the isotropic Gaussian with s² = 2σ².
 //!
+//! `printed` = 1 takes the density as the paper prints it, exp(−√(ζ_x²/σ_x² + ζ_y²/σ_y²)): that is
+//! the elliptic exponential, `Anisotropic_Exponential_Slope_Distribution_Function` with
+//! sx = √6 σ_x, whose standard deviations are √3 σ.
+//!
 //! C. Cox and W. Munk, J. Opt. Soc. Am. 44, 838 (1954).
 
 use std::f64::consts::TAU;
 
 use super::{SlopeDistribution, width};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Param, ParamError, Spec};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
@@ -25,15 +29,23 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         params: &[&[
             Param::number("sigmax", "0.1", "1", "Standard deviation of the slope along x"),
             Param::number("sigmay", "0.1", "1", "Standard deviation of the slope along y"),
+            Param::integer("printed", "0", "1: the exponential that the paper prints for it"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let (x, y) = (width(node, "sigmax")?, width(node, "sigmay")?);
+        let printed = match node.integer("printed") {
+            0 => false,
+            1 => true,
+            other => return Err(ParamError::new("printed", format!("{other} is not 0 or 1"))),
+        };
+        let wider = if printed { 3f64.sqrt() } else { 1.0 };
         Ok(Box::new(AnisotropicGaussian {
-            deviations: (x, y),
+            deviations: (wider * x, wider * y),
             peak: 1.0 / (TAU * x * y),
             half_inverse: (0.5 / (x * x), 0.5 / (y * y)),
+            printed,
         }))
     },
 };
@@ -43,12 +55,15 @@ struct AnisotropicGaussian {
     peak: f64,
     /// 1/(2σ²) along x and y.
     half_inverse: (f64, f64),
+    /// The exponential in its place.
+    printed: bool,
 }
 
 impl SlopeDistribution for AnisotropicGaussian {
     fn density(&self, x: f64, y: f64) -> f64 {
         let (a, b) = self.half_inverse;
-        self.peak * (-(x * x * a + y * y * b)).exp()
+        let half = x * x * a + y * y * b;
+        self.peak * if self.printed { (-(2.0 * half).sqrt()).exp() } else { (-half).exp() }
     }
 
     fn deviations(&self) -> Option<(f64, f64)> {

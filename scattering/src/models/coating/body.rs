@@ -1,4 +1,4 @@
-//! The body of a coating: spherical particles in a binder over a backing, as one diffuse albedo.
+//! The body of a coating: spherical particles in a binder over a backing.
 //!
 //! N particles per volume with the cross-sections C of [`crate::scatterer`] in the binder give the
 //! optical depth N C_ext L, the albedo C_sca/C_ext and the asymmetry g = ⟨cos⟩ of adding and
@@ -11,7 +11,7 @@
 
 use std::sync::Arc;
 
-use super::doubling;
+use super::doubling::{self, Slab};
 use crate::{
     Node, ParamError, Value,
     optics::{Index, Table},
@@ -24,8 +24,8 @@ use crate::{
 /// Spheres of one size cannot be packed more densely than this.
 const DENSEST: f64 = 0.74;
 
-/// Reflectance of the body of `node` inside a binder of index `binder` for diffuse light.
-pub(super) fn albedo(node: &Node, lambda: f64, binder: f64) -> Result<f64, ParamError> {
+/// The body of `node` inside a binder of index `binder`.
+pub(super) fn read(node: &Node, lambda: f64, binder: f64) -> Result<Slab, ParamError> {
     let backing = node.member::<dyn Reflectance>("backing")?.at(lambda);
     if !(0.0..=1.0).contains(&backing) {
         return Err(ParamError::new("backing", format!("{backing} is not from 0 to 1")));
@@ -33,10 +33,10 @@ pub(super) fn albedo(node: &Node, lambda: f64, binder: f64) -> Result<f64, Param
     let (density, thickness) =
         (nonnegative(node, "particle_density")?, nonnegative(node, "thickness")?);
     if density == 0.0 || thickness == 0.0 {
-        return Ok(backing);
+        return Ok(Slab::uniform(backing));
     }
     let radius = positive(node, "particle_radius")?;
-    let filled = density * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+    let filled = filled(node);
     if filled > DENSEST {
         let problem =
             format!("{density} 1/um^3 fill {filled} of the volume; {DENSEST} is the most");
@@ -50,11 +50,11 @@ pub(super) fn albedo(node: &Node, lambda: f64, binder: f64) -> Result<f64, Param
     let (extinction, scattering) =
         (sections.extinction, sections.scattering.min(sections.extinction));
     if !(extinction > 0.0) {
-        return Ok(backing);
+        return Ok(Slab::uniform(backing));
     }
     let g = if scattering > 0.0 { asymmetry(round, radius) } else { 0.0 };
     match node.integer("albedo") {
-        0 => Ok(doubling::reflectance(
+        0 => Ok(doubling::slab(
             density * extinction * thickness,
             scattering / extinction,
             g,
@@ -65,9 +65,16 @@ pub(super) fn albedo(node: &Node, lambda: f64, binder: f64) -> Result<f64, Param
             0.75 * density * scattering * (1.0 - g),
             thickness,
             backing,
-        ),
+        )
+        .map(Slab::uniform),
         other => Err(ParamError::new("albedo", format!("{other} is not 0 or 1"))),
     }
+}
+
+/// The part of the volume that the particles of `node` fill.
+pub(super) fn filled(node: &Node) -> f64 {
+    let radius = node.number("particle_radius");
+    node.number("particle_density") * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)
 }
 
 /// The number `name`, which must not be negative.

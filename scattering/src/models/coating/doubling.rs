@@ -1,4 +1,4 @@
-//! Diffuse light returned by a slab of scatterers on a diffuse backing, by adding and doubling.
+//! Light returned by a slab of scatterers on a diffuse backing, by adding and doubling.
 //!
 //! Radiance is kept at Gauss–Legendre nodes μ_j of its cosine. A thin slab of optical depth d has,
 //! with α = (1 − ½a h⁺W) d/2μ and β = ½a h⁻W d/2μ (a the albedo, h^± the phase function of
@@ -25,14 +25,50 @@ const THIN: f64 = 1e-2;
 /// Optical depth that nothing passes whatever the albedo.
 const OPAQUE: f64 = 1e7;
 
-/// Reflectance for diffuse light of a slab with optical depth `depth`, albedo `albedo` and
-/// asymmetry `g`, on a backing of diffuse reflectance `backing`.
-pub(super) fn reflectance(depth: f64, albedo: f64, g: f64, backing: f64) -> f64 {
+/// What a body returns of diffuse light, and of beams.
+#[derive(Clone, Debug)]
+pub(super) struct Slab {
+    /// Reflectance for diffuse light.
+    pub(super) reflectance: f64,
+    /// (μ, reflectance for a beam at μ over that for diffuse light, weight of the interpolation);
+    /// nothing if all beams fare alike.
+    beams: Vec<(f64, f64, f64)>,
+}
+
+impl Slab {
+    /// A body that returns the same of all beams.
+    pub(super) fn uniform(reflectance: f64) -> Self {
+        Self { reflectance, beams: Vec::new() }
+    }
+
+    /// The reflectance for a beam with the cosine `mu` over that for diffuse light.
+    pub(super) fn shape(&self, mu: f64) -> f64 {
+        if self.beams.is_empty() {
+            return 1.0;
+        }
+        // Barycentric interpolation between the nodes (J.-P. Berrut and L. N. Trefethen, SIAM
+        // Rev. 46, 501 (2004)).
+        let (mut above, mut below) = (0.0, 0.0);
+        for &(node, value, weight) in &self.beams {
+            if mu == node {
+                return value;
+            }
+            let part = weight / (mu - node);
+            above += part * value;
+            below += part;
+        }
+        above / below
+    }
+}
+
+/// A slab with optical depth `depth`, albedo `albedo` and asymmetry `g`, on a backing of diffuse
+/// reflectance `backing`.
+pub(super) fn slab(depth: f64, albedo: f64, g: f64, backing: f64) -> Slab {
     let peak = g.abs().powi(2 * NODES as i32);
     let depth = (depth * (1.0 - albedo * peak)).min(OPAQUE);
     let albedo = albedo * (1.0 - peak) / (1.0 - albedo * peak);
     if !(depth > 0.0) {
-        return backing;
+        return Slab::uniform(backing);
     }
     let nodes = gauss::legendre(NODES, 0.0, 1.0);
     let doublings = (depth / (THIN * nodes[0].0)).log2().ceil().max(0.0) as i32;
@@ -42,9 +78,18 @@ pub(super) fn reflectance(depth: f64, albedo: f64, g: f64, backing: f64) -> f64 
     }
     let ground = Mat::from_fn(NODES, NODES, |_, j| 2.0 * backing * nodes[j].0 * nodes[j].1);
     let whole = &r + &t * &ground * (unit() - &r * &ground).partial_piv_lu().solve(&t);
-    // The flux that a uniform radiance sends up, over the flux that it brings.
+    // The radiance that a uniform one sends up: by reciprocity what returns of a beam.
     let sum = |i: usize| (0..NODES).map(|j| whole[(i, j)]).sum::<f64>();
-    nodes.iter().enumerate().map(|(i, (mu, weight))| 2.0 * mu * weight * sum(i)).sum()
+    let reflectance = nodes.iter().enumerate().map(|(i, (mu, w))| 2.0 * mu * w * sum(i)).sum();
+    if !(reflectance > 0.0) {
+        return Slab::uniform(0.0);
+    }
+    let weight = |i: usize| -> f64 {
+        let apart = |j: usize| if j == i { 1.0 } else { 4.0 * (nodes[i].0 - nodes[j].0) };
+        1.0 / (0..NODES).map(apart).product::<f64>()
+    };
+    let beam = |i: usize| (nodes[i].0, sum(i) / reflectance, weight(i));
+    Slab { reflectance, beams: (0..NODES).map(beam).collect() }
 }
 
 fn unit() -> Mat<f64> {
@@ -96,6 +141,35 @@ fn polynomials(mu: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn reflectance(depth: f64, albedo: f64, g: f64, backing: f64) -> f64 {
+        slab(depth, albedo, g, backing).reflectance
+    }
+
+    #[test]
+    fn a_thick_body_returns_of_a_beam_what_chandrasekhar_s_function_says() {
+        // 1 − √(1 − a) H(μ), H by its integral equation.
+        let h = |mu: f64| {
+            let mut values = vec![1.0; 64];
+            let nodes = gauss::legendre(64, 0.0, 1.0);
+            for _ in 0..200 {
+                let next = |mu: f64| {
+                    let sum: f64 =
+                        nodes.iter().zip(&values).map(|((m, w), h)| w * m * h / (mu + m)).sum();
+                    1.0 / (0.1f64.sqrt() + 0.45 * sum)
+                };
+                values = nodes.iter().map(|(m, _)| next(*m)).collect();
+            }
+            let sum: f64 = nodes.iter().zip(&values).map(|((m, w), h)| w * m * h / (mu + m)).sum();
+            1.0 / (0.1f64.sqrt() + 0.45 * sum)
+        };
+        let body = slab(1e3, 0.9, 0.0, 0.0);
+        for mu in [0.1, 0.5, 0.77, 1.0] {
+            let expected = 1.0 - 0.1f64.sqrt() * h(mu);
+            let got = body.reflectance * body.shape(mu);
+            assert!((got - expected).abs() < 2e-3, "{mu}: {got} {expected}");
+        }
+    }
 
     #[test]
     fn nothing_is_lost_without_absorption_on_white() {

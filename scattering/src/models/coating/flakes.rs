@@ -5,15 +5,16 @@
 //! different flakes differ in thickness by a common factor of relative standard deviation
 //! `flake_spread`, over which intensities are averaged (five nodes of Gauss and Hermite).
 //!
-//! What passes is taken for flakes that lie flat, but never more than the tilted ones leave over.
+//! What flakes absorb is taken for flakes that lie flat; what passes is what is left over by that
+//! and by what tilted ones return. Light that goes from one flake to another counts as passing.
 
 use num_complex::Complex64;
 
 use super::{
     body::nonnegative,
-    interface::{Roughness, facets},
+    interface::{Ray, Roughness, facets},
     passage::Passage,
-    returned::Returned,
+    returned::{Returned, Safe},
 };
 use crate::{
     Direction, Incidence, Mueller, Node, ParamError,
@@ -21,7 +22,6 @@ use crate::{
     optics::film::Films,
     slope::SlopeDistribution,
     spec,
-    special::gauss,
     stack::Stack,
 };
 
@@ -41,18 +41,35 @@ const SAME: f64 = 1e-12;
 pub(super) struct Flakes {
     /// Facets of one thickness, with their share.
     kinds: Vec<(Box<dyn Brdf>, Films, f64)>,
-    /// What all of them return; nothing for opaque flakes.
-    returned: Option<Returned>,
+    transparent: bool,
+    tables: Option<Tables>,
+}
+
+/// What flakes return of a beam.
+struct Tables {
+    /// All of it, less what flat ones would return.
+    returned: Returned,
+    /// What of it comes back to them from the surface above.
+    caught: Returned,
+}
+
+/// What goes on with diffuse light at flakes, s and p.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Fates {
+    /// Reflected.
+    pub(super) returned: (f64, f64),
+    /// Reflected and sent back by the surface.
+    pub(super) caught: (f64, f64),
+    /// Transmitted.
+    pub(super) passed: (f64, f64),
 }
 
 impl Flakes {
-    /// The flakes of `node` in a binder of index `binder`, where light travels at angles with
-    /// sines up to `largest`.
+    /// The flakes of `node` in a binder of index `binder`.
     pub(super) fn read(
         node: &Node,
         common: &Common,
-        binder: f64,
-        largest: f64,
+        binder: Complex64,
     ) -> Result<Self, ParamError> {
         let spread = nonnegative(node, "flake_spread")?;
         if spread >= 1.0 / 3.0 {
@@ -61,11 +78,13 @@ impl Flakes {
             return Err(ParamError::new("flake_spread", problem));
         }
         let stack = node.member::<Stack>("stack")?.at(common.lambda);
-        let (lambda, core) = (common.lambda / binder, common.substrate / binder);
+        let transparent = (common.substrate / binder - 1.0).norm() < SAME;
+        let core = if transparent { Complex64::ONE } else { common.substrate / binder.re };
+        let lambda = common.lambda / binder.re;
         let roughness = Roughness { slopes: node.child("sdf"), shadow: node.child("flake_shadow") };
         let kind = |factor: f64, weight: f64| {
             let films: Vec<_> =
-                stack.iter().map(|&(index, t)| (index / binder, t * factor)).collect();
+                stack.iter().map(|&(index, t)| (index / binder.re, t * factor)).collect();
             let node = facets(core, &films, lambda, &roughness)?;
             let brdf = spec::build::<dyn Brdf>(&node).map_err(rename)?;
             Ok((brdf, Films::new(&films, Complex64::ONE, core, lambda), weight))
@@ -75,20 +94,34 @@ impl Flakes {
         } else {
             NORMAL.iter().map(|&(x, w)| kind(1.0 + spread * x, w)).collect::<Result<_, _>>()?
         };
-        let mut flakes = Self { kinds, returned: None };
-        if (core - 1.0).norm() < SAME {
-            let slopes = node.member::<dyn SlopeDistribution>("sdf")?;
-            let brdf = |at: &Incidence, to: &Direction| flakes.mueller(at, to);
-            let flat = |sin: f64, _| flakes.mean(|films| films.r12(sin.into())).row();
-            let returned = Returned::tabulate(&*slopes, &brdf, &flat, largest.asin());
-            flakes.returned = Some(returned);
-        }
-        Ok(flakes)
+        Ok(Self { kinds, transparent, tables: None })
     }
 
-    /// Whether nothing passes.
-    pub(super) fn are_opaque(&self) -> bool {
-        self.returned.is_none()
+    /// Tabulates what they return; the surface above sends `lid` of a ray back to them, all of it
+    /// from the sine `edge` on.
+    pub(super) fn tabulate(
+        &mut self,
+        node: &Node,
+        lid: &dyn Fn(&Ray) -> Passage,
+        edge: f64,
+    ) -> Result<(), ParamError> {
+        let slopes = node.member::<dyn SlopeDistribution>("sdf")?;
+        let rows = |at: &Incidence, to: &Direction| {
+            let up = self.mueller(at, to);
+            let back = lid(&Ray::reversed(at, to)).row();
+            let caught = std::array::from_fn(|j| back[0] * up.0[0][j] + back[1] * up.0[1][j]);
+            [up.0[0], caught]
+        };
+        let flat = |sin: f64| [self.flat(sin).row(), [0.0; 4]];
+        let safe = [Safe::Large, Safe::Small];
+        let [returned, caught] = Returned::tabulate(&*slopes, &rows, &flat, (Some(edge), safe));
+        self.tables = Some(Tables { returned, caught });
+        Ok(())
+    }
+
+    /// Whether light passes.
+    pub(super) fn are_transparent(&self) -> bool {
+        self.transparent
     }
 
     /// The BRDF of a complete layer of flakes.
@@ -100,32 +133,45 @@ impl Flakes {
         sum
     }
 
-    /// What passes of a ray with this sine and doubled azimuth, s and p alone.
-    pub(super) fn passage(&self, sin: f64, turn: (f64, f64)) -> Passage {
-        let Some(returned) = &self.returned else { return Passage::NONE };
-        let flat = self.mean(|films| films.t12(sin.into()));
-        let reflected = self.mean(|films| films.r12(sin.into()));
-        let more = returned.at(sin.asin(), turn.0, turn.1);
-        // No more than 1 less what comes back.
-        let rest = |r: f64, more: f64| (1.0 - r - more).max(0.0);
-        flat.with_intensities(
-            flat.s.min(rest(reflected.s, more[0] + more[1])),
-            flat.p.min(rest(reflected.p, more[0] - more[1])),
-        )
+    /// (returned, caught): rows of a ray above the flakes.
+    pub(super) fn rows(&self, ray: &Ray) -> ([f64; 4], [f64; 4]) {
+        let Some(tables) = &self.tables else { return ([0.0; 4], [0.0; 4]) };
+        let (theta, (cos, sin)) = (ray.sin.min(1.0).asin(), ray.turn);
+        let flat = self.flat(ray.sin).row();
+        let mut returned = tables.returned.at(theta, cos, sin);
+        for (x, f) in returned.iter_mut().zip(flat) {
+            *x += f;
+        }
+        (returned, tables.caught.at(theta, cos, sin))
     }
 
-    /// (reflectance, transmittance) of diffuse light inside the binder.
-    pub(super) fn diffuse(&self) -> (f64, f64) {
-        if self.are_opaque() {
-            return (0.0, 0.0);
-        }
-        let part = |of: &dyn Fn(&Films, Complex64) -> crate::optics::film::Pair| {
-            gauss::integrate(64, 0.0, std::f64::consts::FRAC_PI_2, |t| {
-                let row = self.mean(|films| of(films, t.sin().into())).row();
-                row[0] * (2.0 * t).sin()
-            })
+    /// The fates of a ray with this sine, the mean over azimuths.
+    pub(super) fn fates(&self, sin: f64) -> Fates {
+        let Some(tables) = &self.tables else { return Fates::default() };
+        let theta = sin.min(1.0).asin();
+        let flat = self.flat(sin);
+        let more = tables.returned.mean(theta);
+        let part =
+            |of: [f64; 4]| ((of[0] + of[1]).clamp(0.0, 1.0), (of[0] - of[1]).clamp(0.0, 1.0));
+        let returned = part([flat.row()[0] + more[0], flat.row()[1] + more[1], 0.0, 0.0]);
+        let passed = if self.transparent {
+            let (s, p) = self.absorbed(sin);
+            ((1.0 - s - returned.0).max(0.0), (1.0 - p - returned.1).max(0.0))
+        } else {
+            (0.0, 0.0)
         };
-        (part(&|films, kappa| films.r21(kappa)), part(&|films, kappa| films.t12(kappa)))
+        Fates { returned, caught: part(tables.caught.mean(theta)), passed }
+    }
+
+    /// What flat transparent flakes absorb of s and p.
+    pub(super) fn absorbed(&self, sin: f64) -> (f64, f64) {
+        let (r, t) = (self.flat(sin), self.mean(|films| films.t12(sin.into())));
+        ((1.0 - r.s - t.s).max(0.0), (1.0 - r.p - t.p).max(0.0))
+    }
+
+    /// What flat flakes reflect.
+    fn flat(&self, sin: f64) -> Passage {
+        self.mean(|films| films.r12(sin.into()))
     }
 
     fn mean(&self, of: impl Fn(&Films) -> crate::optics::film::Pair) -> Passage {

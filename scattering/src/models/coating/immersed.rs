@@ -5,9 +5,13 @@
 //! one with every index divided by n at the wavelength λ/n. Materials are taken at the vacuum
 //! wavelength before it is changed: what was a function of wavelength becomes a constant.
 //!
+//! `medium_i` of a grating is the medium of the incident light: left at 1 it is the coat.
+//!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.5.
 
 use std::sync::Arc;
+
+use num_complex::Complex64;
 
 use crate::{
     Node, ParamError,
@@ -16,20 +20,13 @@ use crate::{
     stack::Film,
 };
 
-/// The models that have a meaning below a coat; sums, layers and pigmented coatings among them
-/// are immersed with all that they contain.
-const MEANINGFUL: &[&str] = &[
-    "Lambertian_BRDF_Model",
-    "Diffuse_Subsurface_BRDF_Model",
-    "Facet_BRDF_Model",
-    "Shadowed_Facet_BRDF_Model",
-    "Subsurface_Facet_BRDF_Model",
-    "Shadowed_Subsurface_Facet_BRDF_Model",
-    "Pigmented_Coating_BRDF_Model",
-    "Layered_BRDF_Model",
-    "Two_Source_BRDF_Model",
-    "Three_Source_BRDF_Model",
-    "Four_Source_BRDF_Model",
+/// What has no meaning below a coat, and why: classes and all below them.
+const MEANINGLESS: &[(&str, &str)] = &[
+    ("Instrument_BRDF_Model", "it describes an instrument in air"),
+    ("ZernikeExpansion_BRDF_Model", "it is a fit to what was measured in air"),
+    ("Transmit_BRDF_Model", "its light leaves through the back into air"),
+    ("Generic_Grating", "its indices stand in a text"),
+    ("Generic_CrossGrating", "its indices stand in a text"),
 ];
 
 /// `node`, the value of the parameter `name`, for light from a medium of index `n` at the vacuum
@@ -37,70 +34,75 @@ const MEANINGFUL: &[&str] = &[
 ///
 /// # Errors
 ///
-/// For models that describe an instrument, a fit, a grating, a particle or a single scattering
-/// with media of its own: they have no meaning inside a coat.
+/// For what describes an instrument, a fit or a structure by a text, and for gratings with an
+/// incident medium of their own: these have no meaning inside a coat.
 pub(super) fn immersed(name: &str, node: &Node, n: f64, lambda: f64) -> Result<Node, ParamError> {
-    let class = node.class.name;
-    if !MEANINGFUL.contains(&class) && !is_below(class, "Roughness_BRDF_Model") {
-        return Err(ParamError::new(name, format!("{class} has no meaning below a coat")));
-    }
-    let mut node = node.clone();
-    for (value, param) in node.values.iter_mut().zip(node.class.parameters()) {
-        *value = match (&*value, param.kind) {
-            (Value::Member(child), Kind::Member(Family::Brdf, _)) => {
-                let inner = immersed(param.name, child, n, lambda);
-                Value::Member(Arc::new(inner.map_err(|error| error.inside(name))?))
-            }
-            (Value::Member(child), Kind::Member(family, _)) => {
-                Value::Member(Arc::new(member(child, family, n, lambda)))
-            }
-            (Value::Number(x), _) if param.name == "lambda" => Value::Number(x / n),
-            (other, _) => optical(other, n, lambda),
-        };
-    }
-    Ok(node)
+    Medium { n, lambda }.immerse(name, node, Family::Brdf)
 }
 
-/// The same for what a model contains: slopes, films, reflectances, particles, layers.
-fn member(node: &Node, family: Family, n: f64, lambda: f64) -> Node {
-    let mut node = node.clone();
-    for (value, param) in node.values.iter_mut().zip(node.class.parameters()) {
-        *value = match (&*value, param.kind) {
-            (Value::Member(child), Kind::Member(family, _)) => {
-                Value::Member(Arc::new(member(child, family, n, lambda)))
-            }
-            (Value::Number(x), _) if param.name == "lambda" => Value::Number(x / n),
-            // Functions of wavelength; those of slopes and shadows are functions of an angle.
-            (Value::Table(table), _) if family == Family::Reflectance => {
-                Value::Table(Table::constant(table.at(lambda)))
-            }
-            (Value::Formula(formula), _) if family == Family::Reflectance => {
-                let at_lambda = formula(lambda);
-                Value::Formula(Arc::new(move |_| at_lambda))
-            }
-            (other, _) => optical(other, n, lambda),
-        };
-    }
-    node
+/// The medium of the light.
+struct Medium {
+    n: f64,
+    /// Vacuum wavelength, µm.
+    lambda: f64,
 }
 
-fn optical(value: &Value, n: f64, lambda: f64) -> Value {
-    match value {
-        Value::Index(index) => Value::Index(relative(index, n, lambda)),
-        Value::Films(films) => {
-            let film = |film: &Film| Film {
-                index: relative(&film.index, n, lambda),
-                thickness: film.thickness,
-            };
-            Value::Films(films.iter().map(film).collect())
+impl Medium {
+    fn immerse(&self, name: &str, node: &Node, family: Family) -> Result<Node, ParamError> {
+        let class = node.class.name;
+        if let Some((_, why)) = MEANINGLESS.iter().find(|(base, _)| is_below(class, base)) {
+            let problem = format!("{class} has no meaning below a coat: {why}");
+            return Err(ParamError::new(name, problem));
         }
-        other => other.clone(),
+        let mut node = node.clone();
+        for (value, param) in node.values.iter_mut().zip(node.class.parameters()) {
+            *value = match (&*value, param.kind) {
+                (Value::Member(child), Kind::Member(family, _)) => {
+                    let inner = self.immerse(param.name, child, family);
+                    Value::Member(Arc::new(inner.map_err(|error| error.inside(name))?))
+                }
+                (Value::Number(x), _) if param.name == "lambda" => Value::Number(x / self.n),
+                (Value::Index(index), _) if param.name == "medium_i" => {
+                    let own = index.at(self.lambda);
+                    if own != Complex64::ONE {
+                        let problem =
+                            format!("{own}: below a coat the incident medium is the coat; write 1");
+                        return Err(ParamError::new(param.name, problem).inside(name));
+                    }
+                    Value::Index(index.clone())
+                }
+                // Functions of wavelength; those of other families are functions of an angle.
+                (Value::Table(table), _) if family == Family::Reflectance => {
+                    Value::Table(Table::constant(table.at(self.lambda)))
+                }
+                (Value::Formula(formula), _) if family == Family::Reflectance => {
+                    let at_lambda = formula(self.lambda);
+                    Value::Formula(Arc::new(move |_| at_lambda))
+                }
+                (other, _) => self.optical(other),
+            };
+        }
+        Ok(node)
     }
-}
 
-fn relative(index: &Index, n: f64, lambda: f64) -> Index {
-    let at = index.at(lambda) / n;
-    Index::constant(at.re, at.im)
+    fn optical(&self, value: &Value) -> Value {
+        match value {
+            Value::Index(index) => Value::Index(self.relative(index)),
+            Value::Films(films) => {
+                let film = |film: &Film| Film {
+                    index: self.relative(&film.index),
+                    thickness: film.thickness,
+                };
+                Value::Films(films.iter().map(film).collect())
+            }
+            other => other.clone(),
+        }
+    }
+
+    fn relative(&self, index: &Index) -> Index {
+        let at = index.at(self.lambda) / self.n;
+        Index::constant(at.re, at.im)
+    }
 }
 
 #[cfg(test)]
@@ -109,11 +111,22 @@ mod tests {
 
     use super::*;
 
+    fn defaults(name: &str) -> Node {
+        Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+    }
+
     #[test]
     fn immersion_in_vacuum_changes_nothing() {
         let at = Geometry { theta_i: 0.5, theta_s: 0.9, phi_s: 0.7, rotation: 0.1 };
-        for name in ["Facet_BRDF_Model", "Microroughness_BRDF_Model", "Two_Source_BRDF_Model"] {
-            let node = Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound);
+        for name in [
+            "Facet_BRDF_Model",
+            "Microroughness_BRDF_Model",
+            "Two_Source_BRDF_Model",
+            "First_Diffuse_BRDF_Model",
+            "Double_Interaction_BRDF_Model",
+            "RCW_BRDF_Model",
+        ] {
+            let node = defaults(name);
             let inner = immersed("model", &node, 1.0, 0.532).unwrap();
             let [a, b] =
                 [node, inner].map(|n| models::build(&n).unwrap().mueller(&at, Basis::Psps));
@@ -122,11 +135,44 @@ mod tests {
     }
 
     #[test]
-    fn models_without_meaning_below_a_coat_are_refused() {
-        for name in ["ZernikeExpansion_BRDF_Model", "Rayleigh_Instrument_BRDF_Model"] {
-            let node = Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound);
-            let error = immersed("model", &node, 1.5, 0.532).unwrap_err();
+    fn a_model_in_a_medium_is_the_one_with_all_lengths_and_indices_in_units_of_the_medium() {
+        // In water every length counts n times: the same numbers come of thicker things in air.
+        let at = Geometry { theta_i: 0.5, theta_s: 0.9, phi_s: 0.7, rotation: 0.1 };
+        let n = 1.33;
+        let sphere = |node: Node, radius: f64, index: f64, density: f64| {
+            let scatterer = node.child("scatterer").clone();
+            let scatterer = scatterer
+                .with("lambda", Value::Number(0.532))
+                .and_then(|s| s.with("radius", Value::Number(radius)))
+                .and_then(|s| s.with("sphere", Value::Index(Index::constant(index, 0.0))))
+                .unwrap();
+            node.with("scatterer", Value::Member(scatterer.into()))
+                .and_then(|n| n.with("distance", Value::Number(radius)))
+                .and_then(|n| n.with("density", Value::Number(density)))
+                .and_then(|n| n.with("substrate", Value::Index(Index::constant(index, 0.0))))
+                .unwrap()
+        };
+        let name = "Double_Interaction_BRDF_Model";
+        let below = immersed("model", &sphere(defaults(name), 0.1, 1.6, 1.0), n, 0.532).unwrap();
+        let in_air = sphere(defaults(name), 0.1 * n, 1.6 / n, 1.0 / (n * n));
+        let [a, b] = [below, in_air].map(|n| models::build(&n).unwrap().mueller(&at, Basis::Psps));
+        assert!((a - b).largest() < 1e-12 * b.largest(), "{a:?} {b:?}");
+    }
+
+    #[test]
+    fn what_has_no_meaning_below_a_coat_is_refused() {
+        for name in
+            ["ZernikeExpansion_BRDF_Model", "Rayleigh_Instrument_BRDF_Model", "Transmit_BRDF_Model"]
+        {
+            let error = immersed("model", &defaults(name), 1.5, 0.532).unwrap_err();
             assert!(error.problem.contains("no meaning"), "{error}");
         }
+        let grating = defaults("Single_Line_Grating")
+            .with("medium_i", Value::Index(Index::constant(1.5, 0.0)))
+            .unwrap();
+        let model =
+            defaults("RCW_BRDF_Model").with("grating", Value::Member(grating.into())).unwrap();
+        let error = immersed("model", &model, 1.5, 0.532).unwrap_err();
+        assert_eq!(error.parameter, "model.grating.medium_i");
     }
 }

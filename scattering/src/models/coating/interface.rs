@@ -7,7 +7,10 @@
 
 use num_complex::Complex64;
 
-use super::{passage::Passage, returned::Returned};
+use super::{
+    passage::Passage,
+    returned::{Returned, Safe},
+};
 use crate::{
     Direction, Incidence, Mode, Mueller, Node, ParamError, Value,
     models::{Brdf, facet::shadowed},
@@ -31,6 +34,7 @@ pub(super) struct Interface {
 /// The facets of a rough interface and what they return.
 struct Rough {
     facets: Box<dyn Brdf>,
+    slopes: Box<dyn SlopeDistribution>,
     returned: Returned,
 }
 
@@ -61,6 +65,11 @@ impl Ray {
         Self { sin: direction.sin, cos: direction.cos, turn: (c * c - s * s, 2.0 * s * c) }
     }
 
+    /// A ray with this sine, for what does not depend on the azimuth.
+    pub(super) fn mean(sin: f64) -> Self {
+        Self { sin, cos: (1.0 - sin * sin).max(0.0).sqrt(), turn: (1.0, 0.0) }
+    }
+
     /// The ray below an interface with the relative index `n`.
     pub(super) fn below(&self, n: f64) -> Self {
         let sin = self.sin / n;
@@ -69,12 +78,12 @@ impl Ray {
 
     /// It as an incident beam on the sample of `at`.
     pub(super) fn incidence(&self, at: &Incidence) -> Incidence {
-        Incidence { theta: self.sin.asin(), sin: self.sin, cos: self.cos, ..*at }
+        Incidence { theta: self.sin.min(1.0).asin(), sin: self.sin, cos: self.cos, ..*at }
     }
 
     /// It as an exit along the azimuth of `direction`.
     pub(super) fn direction(&self, direction: &Direction) -> Direction {
-        Direction { theta: self.sin.asin(), sin: self.sin, cos: self.cos, ..*direction }
+        Direction { theta: self.sin.min(1.0).asin(), sin: self.sin, cos: self.cos, ..*direction }
     }
 }
 
@@ -121,6 +130,17 @@ impl Interface {
         self.rough.is_some()
     }
 
+    /// The density of the facets' slopes; nothing if it is smooth.
+    pub(super) fn slopes(&self) -> Option<&dyn SlopeDistribution> {
+        self.rough.as_ref().map(|rough| &*rough.slopes)
+    }
+
+    /// What the facets return of a ray, all of it.
+    pub(super) fn returned(&self, ray: &Ray) -> [f64; 4] {
+        let [i, q, _, _] = self.crossing(ray).row;
+        [1.0 - i, -q, 0.0, 0.0]
+    }
+
     /// What the facets reflect; nothing if it is smooth.
     pub(super) fn facets(&self) -> Option<&dyn Brdf> {
         self.rough.as_ref().map(|rough| &*rough.facets)
@@ -136,38 +156,72 @@ impl Interface {
         let smooth = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos);
         match &self.rough {
             None => smooth,
-            Some(rough) => {
-                rough.lessen(smooth, rough.returned.at(ray.sin.asin(), ray.turn.0, ray.turn.1))
-            }
+            Some(rough) => rough.lessen(smooth, rough.at(ray)),
         }
     }
 
     /// What would pass if it were smooth.
     pub(super) fn smooth_passage(&self, sin: f64) -> Passage {
-        let ray = Ray { sin, cos: (1.0 - sin * sin).sqrt(), turn: (1.0, 0.0) };
+        let ray = Ray::mean(sin);
         self.smooth(sin, ray.cos, ray.below(self.n).cos)
     }
 
     /// The mean of [`Interface::passage`] over azimuths.
     pub(super) fn mean_passage(&self, sin: f64) -> Passage {
-        let ray = Ray { sin, cos: (1.0 - sin * sin).sqrt(), turn: (1.0, 0.0) };
-        let smooth = self.smooth(sin, ray.cos, ray.below(self.n).cos);
+        let smooth = self.smooth_passage(sin);
         match &self.rough {
             None => smooth,
             Some(rough) => rough.lessen(smooth, rough.returned.mean(sin.asin())),
         }
     }
 
-    /// The row of all that passes of a Stokes vector.
-    pub(super) fn row(&self, ray: &Ray) -> [f64; 4] {
-        let mut row = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos).row();
-        if let Some(rough) = &self.rough {
-            let more = rough.returned.at(ray.sin.asin(), ray.turn.0, ray.turn.1);
-            for (x, e) in row.iter_mut().zip(more) {
-                *x -= e;
-            }
+    /// What passes in both ways of telling it.
+    pub(super) fn crossing(&self, ray: &Ray) -> Crossing {
+        let smooth = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos);
+        let Some(rough) = &self.rough else {
+            return Crossing { kept: smooth, row: smooth.row() };
+        };
+        let more = rough.at(ray);
+        let mut row = smooth.row();
+        for (x, e) in row.iter_mut().zip(more) {
+            *x -= e;
         }
-        realizable(row)
+        let passage = rough.lessen(smooth, more);
+        // What is kept polarized has no U and V, so a little less of it is sure to pass.
+        let least = passage.s.min(passage.p);
+        let oblique = more[2].hypot(more[3]);
+        let part = if oblique < least { 1.0 - oblique / least } else { 0.0 };
+        let kept = if oblique > 0.0 { passage.scaled(part) } else { passage };
+        Crossing { kept, row: realizable(row) }
+    }
+
+    /// What a ray from below with this sine on top meets again below; beyond 1 it is reflected
+    /// totally. A rough interface sends back what it lets pass less than a smooth one.
+    fn sent_back(&self, sin: f64, passes: impl Fn() -> Passage) -> Passage {
+        let reflected = self.reflects_below(sin);
+        if self.rough.is_none() || sin >= 1.0 {
+            return reflected;
+        }
+        let (smooth, rough) = (self.smooth_passage(sin), passes());
+        let back = |r: f64, smooth: f64, rough: f64| (r + smooth - rough).clamp(0.0, 1.0);
+        Passage {
+            s: back(reflected.s, smooth.s, rough.s),
+            p: back(reflected.p, smooth.p, rough.p),
+            c: reflected.c,
+        }
+    }
+
+    /// What the interface sends back of a ray from below it.
+    pub(super) fn sends_back(&self, below: &Ray) -> Passage {
+        let sin = below.sin * self.n;
+        self.sent_back(sin, || {
+            self.passage(&Ray { sin, cos: (1.0 - sin * sin).sqrt(), turn: below.turn })
+        })
+    }
+
+    /// The mean of [`Interface::sends_back`] over azimuths, for a ray whose sine on top is `sin`.
+    pub(super) fn mean_sent_back(&self, sin: f64) -> Passage {
+        self.sent_back(sin, || self.mean_passage(sin))
     }
 
     /// Smooth reflection of light from above with this sine.
@@ -182,6 +236,11 @@ impl Interface {
 }
 
 impl Rough {
+    /// What comes back of a ray more than from a smooth interface.
+    fn at(&self, ray: &Ray) -> [f64; 4] {
+        self.returned.at(ray.sin.asin(), ray.turn.0, ray.turn.1)
+    }
+
     fn new(
         n: Complex64,
         films: &[(Complex64, f64)],
@@ -192,10 +251,10 @@ impl Rough {
         let node = facets(n, films, lambda, roughness)?;
         let facets = spec::build::<dyn Brdf>(&node)?;
         let slopes = spec::build::<dyn SlopeDistribution>(roughness.slopes)?;
-        let smooth = |sin: f64, _| Passage::of(stack.r12(sin.into()), 1.0).row();
-        let brdf = |at: &Incidence, to: &Direction| facets.mueller(at, to);
-        let returned = Returned::tabulate(&*slopes, &brdf, &smooth, std::f64::consts::FRAC_PI_2);
-        Ok(Self { facets, returned })
+        let smooth = |sin: f64| [Passage::of(stack.r12(sin.into()), 1.0).row()];
+        let rows = |at: &Incidence, to: &Direction| [facets.mueller(at, to).0[0]];
+        let [returned] = Returned::tabulate(&*slopes, &rows, &smooth, (None, [Safe::Large]));
+        Ok(Self { facets, slopes, returned })
     }
 
     /// `smooth` less what the facets return more than a smooth interface would.
@@ -206,8 +265,16 @@ impl Rough {
     }
 }
 
+/// What passes an interface.
+pub(super) struct Crossing {
+    /// With its polarization: s, p and their coherence.
+    pub(super) kept: Passage,
+    /// The row of all that passes of a Stokes vector.
+    pub(super) row: [f64; 4],
+}
+
 /// The row with no more polarization than intensity, and an intensity of 0 to 1.
-fn realizable([i, q, u, v]: [f64; 4]) -> [f64; 4] {
+pub(super) fn realizable([i, q, u, v]: [f64; 4]) -> [f64; 4] {
     let i = i.clamp(0.0, 1.0);
     let polarized = (q * q + u * u + v * v).sqrt();
     let keep = if polarized > i { i / polarized } else { 1.0 };

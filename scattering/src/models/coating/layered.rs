@@ -14,16 +14,18 @@
 //! Light that goes back and forth between smooth interfaces is added up for s, p and their
 //! coherence (T_1 T_2/(1 − A R_1 R_2 A), and so on downwards). A diffuse body at the bottom
 //! (`Lambertian_BRDF_Model`, or `Diffuse_Subsurface_BRDF_Model` with its own interface) gets the
-//! factor 1/(1 − ρR), ρ the part of diffuse light that all layers send back. Without absorption and
-//! with at most one rough interface, on which no smooth one follows, coats over a white body lose
-//! no light.
+//! factor 1/(1 − ρR), ρ the part of diffuse light that all layers send back. What rough interfaces
+//! neither let pass nor send out counts as diffuse light that reaches the body ([`Closing`]).
+//! Without absorption coats over a white body therefore lose no light, whatever their roughness;
+//! of two anisotropic rough interfaces 2·10⁻³ more than came was found to return.
 //!
 //! `layer1` is the uppermost of `layers` layers. A layered model as `model` has its layers below
 //! these, so their number is not limited.
 //!
-//! Left out: light that goes back and forth between a rough interface and others or between the
-//! interfaces and a bottom that is not diffuse, and the spread of directions by refraction at
-//! rough interfaces. Absorption is taken along the refracted direction of the real index.
+//! Left out: light that goes back and forth between a rough interface and others over a bottom that
+//! is not diffuse or between the interfaces and such a bottom, and the spread of directions by
+//! refraction at rough interfaces. Over films that absorb, rough interfaces lose what goes between
+//! them. Absorption is taken along the refracted direction of the real index.
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), sections 1.5 and 1.6; T. A. Germer
 //! and M. E. Nadal, Proc. SPIE 4447, 77 (2001).
@@ -33,6 +35,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 use num_complex::Complex64;
 
 use super::{
+    closing::Closing,
     immersed::immersed,
     interface::{Interface, Ray, Roughness, behind},
     layer::Layer,
@@ -96,10 +99,10 @@ struct Layered {
 }
 
 /// A layer with the interface on it.
-struct Coat {
-    interface: Interface,
+pub(super) struct Coat {
+    pub(super) interface: Interface,
     /// Index of the layer.
-    n: f64,
+    pub(super) n: f64,
     /// 4πkt/λ.
     depth: f64,
 }
@@ -110,6 +113,8 @@ enum Bottom {
     Diffuse {
         /// R/(π(1 − ρR)).
         strength: f64,
+        /// What reaches it by way of rough interfaces.
+        closing: Option<Closing>,
     },
     /// Any other model, immersed.
     Immersed(Model),
@@ -117,15 +122,25 @@ enum Bottom {
 
 /// All layers down to some depth, for one ray.
 #[derive(Clone, Copy)]
-struct Above {
+pub(super) struct Above {
     /// What passes.
-    passes: Passage,
+    pub(super) passes: Passage,
     /// What comes back of light from below, through the last layer and back.
     returns: Passage,
+    /// What smooth interfaces send out again.
+    pub(super) mirrored: Passage,
 }
 
 impl Above {
-    const NOTHING: Self = Self { passes: Passage::FREE, returns: Passage::NONE };
+    pub(super) const NOTHING: Self =
+        Self { passes: Passage::FREE, returns: Passage::NONE, mirrored: Passage::NONE };
+}
+
+/// Whether the absorption of layers is taken or left out.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Media {
+    Lossy,
+    Clear,
 }
 
 impl Layered {
@@ -137,9 +152,19 @@ impl Layered {
         let n = coats.last().map_or(1.0, |coat| coat.n);
         let bottom = match diffuse_body(&below, &common, &mut coats)? {
             Some(reflectance) => {
-                let strength =
-                    FRAC_1_PI * reflectance / (1.0 - recycled(&coats, common.lambda) * reflectance);
-                Bottom::Diffuse { strength }
+                let closing = Closing::new(&coats);
+                let rho = match &closing {
+                    None => recycled(&coats, common.lambda, Media::Lossy),
+                    Some(closing) => {
+                        // Absorption on the way back is that of light which is not caught.
+                        let clear = recycled(&coats, common.lambda, Media::Clear);
+                        let lossy = recycled(&coats, common.lambda, Media::Lossy);
+                        let kept = if clear > 0.0 { (lossy / clear).min(1.0) } else { 1.0 };
+                        kept * closing.sent_back(&coats)
+                    }
+                };
+                let strength = FRAC_1_PI * reflectance / (1.0 - rho * reflectance);
+                Bottom::Diffuse { strength, closing }
             }
             None => {
                 let inside = immersed("model", &below, n, common.lambda)?;
@@ -235,47 +260,43 @@ impl Coat {
     }
 
     /// What is left of light after one passage at an angle with this cosine.
-    fn left(&self, cos: f64) -> f64 {
-        if self.depth == 0.0 { 1.0 } else { (-self.depth / cos).exp() }
+    pub(super) fn left(&self, cos: f64, media: Media) -> f64 {
+        if self.depth == 0.0 || media == Media::Clear { 1.0 } else { (-self.depth / cos).exp() }
     }
 
     /// The layers down to this one for the ray `ray` above it, whose angle in it has the cosine
     /// `cos`; `sin` is that of the ray above.
-    fn add(&self, above: Above, ray: &Ray, cos: f64) -> Above {
+    pub(super) fn add(&self, above: Above, ray: &Ray, cos: f64, media: Media) -> Above {
         let crossing = self.interface.passage(ray);
-        let absorbed = self.left(cos);
+        let absorbed = self.left(cos, media);
         if self.interface.is_rough() {
             // What it reflects goes into other directions.
             let passes = above.passes.then(crossing).scaled(absorbed);
-            return Above { passes, returns: Passage::NONE };
+            return Above { passes, returns: Passage::NONE, mirrored: above.mirrored };
         }
         let reflected = self.interface.reflects_above(ray.sin);
         let trips = above.returns.then(reflected).repeated();
         let passes = above.passes.then(crossing).then(trips).scaled(absorbed);
+        let out = above.passes.then(reflected).then(trips).then(above.passes);
+        let mirrored = above.mirrored.plus(out);
         let through = crossing.then(crossing).then(above.returns).then(trips);
         let returns = self.interface.reflects_below(ray.sin).plus(through);
-        Above { passes, returns: returns.scaled(absorbed * absorbed) }
+        Above { passes, returns: returns.scaled(absorbed * absorbed), mirrored }
     }
 
     /// The part of light with the tangential index `kappa` that all layers down to this one send
     /// back, once it has crossed this one twice, of diffuse light from below.
-    fn recycled(&self, above: (f64, Passage), kappa: f64) -> Passage {
+    fn recycled(&self, above: (f64, Passage), kappa: f64, media: Media) -> Passage {
         let (n_above, returns) = above;
         let sin = kappa / n_above;
         let cos = (1.0 - (kappa / self.n).powi(2)).max(0.0).sqrt();
-        let absorbed = self.left(cos).powi(2);
+        let absorbed = self.left(cos, media).powi(2);
         let reflected = self.interface.reflects_below(sin);
         if sin >= 1.0 {
             return reflected.scaled(absorbed);
         }
         let crossing = self.interface.mean_passage(sin);
-        // A rough interface sends back what it lets pass less than a smooth one.
-        let smooth = self.interface.smooth_passage(sin);
-        let back = Passage {
-            s: reflected.s + smooth.s - crossing.s,
-            p: reflected.p + smooth.p - crossing.p,
-            c: reflected.c,
-        };
+        let back = self.interface.mean_sent_back(sin);
         let trips = if self.interface.is_rough() {
             Passage::FREE
         } else {
@@ -286,7 +307,7 @@ impl Coat {
 }
 
 /// ρ: the part of diffuse light from below all coats that comes back.
-fn recycled(coats: &[Coat], lambda: f64) -> f64 {
+fn recycled(coats: &[Coat], lambda: f64, media: Media) -> f64 {
     let Some(last) = coats.last() else { return 0.0 };
     // The integrand has kinks where light begins to be reflected totally.
     let mut ends = vec![0.0, 1.0, last.n];
@@ -306,7 +327,7 @@ fn recycled(coats: &[Coat], lambda: f64) -> f64 {
                 let kappa = (from + span * t.sin().powi(2)).sqrt();
                 let mut above = (1.0, Passage::NONE);
                 for coat in coats {
-                    above = (coat.n, coat.recycled(above, kappa));
+                    above = (coat.n, coat.recycled(above, kappa, media));
                 }
                 above.1.row()[0] * (2.0 * t).sin()
             });
@@ -331,14 +352,21 @@ impl Brdf for Layered {
                 sum += behind((above_s.passes, above_i.passes), seen, n * n);
             }
             let (below_i, below_s) = (ray_i.below(coat.interface.n), ray_s.below(coat.interface.n));
-            above_i = coat.add(above_i, &ray_i, below_i.cos);
-            above_s = coat.add(above_s, &ray_s, below_s.cos);
+            above_i = coat.add(above_i, &ray_i, below_i.cos, Media::Lossy);
+            above_s = coat.add(above_s, &ray_s, below_s.cos, Media::Lossy);
             (ray_i, ray_s, n) = (below_i, below_s, coat.n);
         }
         match &self.bottom {
-            Bottom::Diffuse { strength } => {
-                let rows = (above_s.passes.row(), above_i.passes.row());
-                sum += depolarized(strength / (n * n), rows.0, rows.1);
+            Bottom::Diffuse { strength, closing } => {
+                let mut rows = [above_s.passes.row(), above_i.passes.row()];
+                if let Some(closing) = closing {
+                    let outside = [Ray::reversed(incidence, direction), Ray::incident(incidence)];
+                    for (row, ray) in rows.iter_mut().zip(outside) {
+                        closing.add(row, &self.coats, ray);
+                    }
+                }
+                let [leaving, entering] = rows;
+                sum += depolarized(strength / (n * n), leaving, entering);
             }
             Bottom::Immersed(model) => {
                 let mut inner = [Mueller::ZERO];

@@ -75,6 +75,13 @@ impl Passage {
         ])
     }
 
+    /// The row `row` of what comes after it, seen from before it.
+    pub(super) fn before(&self, [i, q, u, v]: [f64; 4]) -> [f64; 4] {
+        let (sum, difference) = (0.5 * (self.s + self.p), 0.5 * (self.s - self.p));
+        let Complex64 { re, im } = self.c;
+        [sum * i + difference * q, difference * i + sum * q, re * u + im * v, re * v - im * u]
+    }
+
     /// First row of the matrix: what passes of the incident Stokes vector.
     pub(super) fn row(&self) -> [f64; 4] {
         [0.5 * (self.s + self.p), 0.5 * (self.s - self.p), 0.0, 0.0]

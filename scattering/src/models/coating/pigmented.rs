@@ -3,51 +3,69 @@
 //! $$ \mathbf F = \mathbf F_{surface}
 //!  + \frac{\omega_s}{n^2}\,\mathbf T_s\,\mathbf F_{flakes}\,\mathbf T_i
 //!  + \frac{\omega_d\,\alpha}{\pi n^2(1-\rho\alpha)}\,\mathbf t_s\otimes\mathbf t_i
-//!  + \frac{\omega_s\,\alpha}{\pi n^2(1-\rho_c\alpha)}\,\mathbf c_s\otimes\mathbf c_i $$
+//!  + \frac{\omega_s}{\pi n^2}\sum_{a,b\in\{l,c\}} G_{ab}\,\mathbf a_s\otimes\mathbf b_i $$
 //!
 //! F_surface: shadowed facets of the coat (`surface_sdf`, `surface_shadow`, `overcoat`,
 //! `overcoat_films`). F_flakes: shadowed facets inside the binder (`sdf`, `stack`, `substrate`,
-//! `flake_shadow`) at the angles sin θ' = sin θ/n. The body is diffuse with the albedo α of its
-//! particles over `backing`; its light comes through the gaps between flakes or through flakes.
+//! `flake_shadow`) at the angles sin θ' = sin θ/n. The body returns the part α of diffuse light and
+//! αB(cos θ') of a beam, by its particles over `backing`, and depolarizes; its light comes through
+//! the gaps between flakes or through flakes.
 //!
 //! τ = `flake_density` · `flake_area` · `thickness` is the depth of coverage. Where light goes in
 //! and out through gaps that are the same with the probability c (`correlation`),
 //! ω_s = (1 − e^{−(2−c)τ})/(2 − c) and ω_d = e^{−(2−c)τ}. For c < 1 their sum is below 1: light
 //! caught between flakes is lost. c = 1 is right for flakes much wider than the coat is thick.
+//! A binder that absorbs (k of `overcoat`, κ = 4πk/λ, L = `thickness`) adds
+//! κL(1/cos θ_i' + 1/cos θ_s') to the exponent: with E the sum of both, ω_d = e^{−E} and
+//! ω_s = τ(1 − e^{−E})/E; diffuse light crosses it up to the flakes' mean depth or the body.
 //!
 //! t is the row of what the rough surface lets pass: what comes of every polarization, less what
-//! the facets return. T has the same intensities of s and p. ρ = 1 − ∫t₀ sin 2θ dθ/n² is the part
-//! of diffuse light that the surface sends back to the body. Then surface and body return exactly
-//! all light if the body is white. c is t times what flakes transmit, ρ_c = r + τ_f²ρ/(1 − rρ)
-//! with the diffuse reflectance r and transmittance τ_f of the flakes, but at most
-//! 1 − ∫c₀ sin 2θ dθ/n². Because flakes reflect and transmit at most 1 together, the whole is at
-//! most ω_s + ω_d ≤ 1 of what enters. This holds for facets that return no more than 1: Gaussian
-//! slopes with the Sancer function.
+//! the facets return; times B. T has the same intensities of s and p. ρ = ⟨wB²⟩, w what the surface
+//! sends back of light from below; without absorption B is 1 and ρ = 1 − ∫t₀ sin 2θ dθ/n². Then surface and
+//! body return exactly all light if the body is white. c is what of t passes the flakes, l what
+//! they reflect and the surface sends back to them; [`Exchange`] has G. `exchange` = 0 leaves l
+//! out: flakes are then seen as those of `Shadowed_Subsurface_Facet_BRDF_Model`. With `exchange`
+//! = 1 and c = 1, transparent flakes that do not absorb over a white body return all light too.
+//! Because flakes reflect and transmit at most 1 together, the whole is at most ω_s + ω_d ≤ 1 of
+//! what enters. This holds for facets that return no more than 1: Gaussian slopes with the Sancer
+//! function.
 //!
-//! Left out: light that goes from flakes back to the surface and in again, light between flakes,
-//! the angle dependence of the body, absorption in the binder.
+//! Limits, noted where they are passed: particles fill at most a tenth of the volume (they are
+//! taken to scatter independently); flakes of side √A and slope σ have the room N A (t + σ√A) ≤ 1
+//! to tilt; what is lost between flakes, 1 − ω_s − ω_d, is at most 0.05.
 //!
-//! `printed` = 1 takes the body as the paper prints it, ω_d α/(4π)·(T_s ± T_p)(T_s ± T_p) of a
-//! smooth surface: without the light that goes round, too bright for coloured bodies. `printed` =
-//! 2 weights the flakes by e^{−τ} as well, the part that they do not meet.
+//! Left out: light between flakes, what the body does to a beam beyond that (its light leaves as
+//! if diffuse light had entered), refraction of the light of
+//! flakes and body into other directions by a rough surface.
+//!
+//! `printed` = 1 takes the body as the paper prints it (equation 9), ω_d α/(4π)·(T_s ± T_p)(T_s ±
+//! T_p) of a smooth surface: without the light that goes round, too bright for coloured bodies.
+//! `printed` = 2 weights the flakes by e^{−τ} as well (equation 11), the part that they do not
+//! meet. `printed_surface` = 1 takes the facets of the surface as equations 4 to 6 print them, with
+//! the Jones matrix transposed: right in the plane of incidence, the reversed path outside of it.
+//! `printed_flakes` = 1 takes equation 8: the transposed Jones matrix, n² in the place of its η²,
+//! (1 + ζ')² for (1 + ζ'²)²; brighter by n² and more. Energy is not kept in any of these.
 //!
 //! M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969); T. A. Germer and M. E. Nadal,
 //! Proc. SPIE 4447, 77 (2001); L. B. Wolff, JOSA A 11, 2956 (1994).
 
-use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
+use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 
 use super::{
     body::{self, nonnegative},
+    doubling::Slab,
+    exchange::{Exchange, Means},
     flakes::Flakes,
-    interface::{Interface, Ray, Roughness, behind},
-    passage::{Passage, depolarized},
+    interface::{Crossing, Interface, Ray, Roughness, behind, realizable},
+    passage::depolarized,
 };
 use crate::{
-    Direction, Incidence, Mueller, Node, ParamError,
+    Direction, Incidence, Limit, Mueller, Node, ParamError,
     models::{
         Brdf, COMMON, Common,
         facet::{FACET, subsurface::OVERCOAT},
     },
+    slope::SlopeDistribution,
     spec::{Class, Family, Laws, Param, Spec},
     special::gauss,
     stack::Stack,
@@ -59,7 +77,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         name: "Pigmented_Coating_BRDF_Model",
         parent: "Subsurface_Facet_BRDF_Model",
         summary: "Rough coat with flakes over a body of particles",
-        equation: "F = F_surface + ws T F_flakes T/n^2 + wd a/(pi n^2 (1-rho a)) t x t",
+        equation: "F = F_surface + ws T F_flakes T/n^2 + wd a/(pi n^2 (1-rho a)) t x t + light through flakes",
         source: "germer-2001 sancer-1969 wolff-1994 vandehulst-1980 wiscombe-1976 wiscombe-1977",
         params: &[COMMON, FACET, OVERCOAT, OWN],
         laws: Laws::ALL,
@@ -107,7 +125,11 @@ const OWN: &[Param] = &[
         "Table_Reflectance",
         "Reflectance of what lies below the coat, for diffuse light inside it",
     ),
-    Param::integer("printed", "0", "0 consistent, 1 the body as printed, 2 its flakes' weight too"),
+    Param::integer(
+        "printed",
+        "0",
+        "0 consistent; 1 the body as in the paper's equation 9; 2 the flakes' weight of equation 11 too",
+    ),
     Param::member(
         "flake_shadow",
         Family::Shadow,
@@ -122,7 +144,17 @@ const OWN: &[Param] = &[
         "Relative standard deviation of the thickness of the flakes' films, below 1/3",
     ),
     Param::integer("albedo", "0", "Albedo of the body: 0 adding and doubling, 1 Kubelka-Munk"),
+    Param::integer("exchange", "0", "Light between flakes and surface: 0 left out, 1 taken in"),
+    Param::integer("printed_surface", "0", "1: the surface as in the paper's equations 4 to 6"),
+    Param::integer("printed_flakes", "0", "1: the flakes as in the paper's equation 8"),
 ];
+
+/// Spheres that fill more of the volume do not scatter independently: they are closer than about
+/// a radius then.
+const INDEPENDENT: f64 = 0.1;
+
+/// Light lost between flakes that is told.
+const LOST: f64 = 0.05;
 
 /// Nodes of the integrals over the surface.
 const NODES: usize = 96;
@@ -133,130 +165,337 @@ struct Pigmented {
     n: f64,
     surface: Interface,
     flakes: Flakes,
-    /// ω_s.
-    flake_weight: f64,
-    /// Strengths of the body seen through gaps and through flakes.
+    cover: Cover,
+    slab: Slab,
+    /// Strength of the body seen through gaps.
     gaps: f64,
-    through: f64,
-    literal: bool,
+    /// Strengths of what goes by flakes other than by one reflection.
+    through: Exchange,
+    /// Whether light between flakes and surface is taken in.
+    exchange: bool,
+    printed: Printed,
+}
+
+/// What is taken as the paper prints it.
+struct Printed {
+    body: bool,
+    surface: bool,
+    flakes: bool,
+}
+
+/// How flakes and binder divide the light.
+struct Cover {
+    /// τ.
+    depth: f64,
+    /// 2 − c.
+    passes: f64,
+    /// κL.
+    binder: f64,
+    /// The flakes' weight of equation 11, if it is taken as printed.
+    printed: bool,
+}
+
+impl Cover {
+    fn read(node: &Node, lambda: f64, k: f64, printed: bool) -> Result<Self, ParamError> {
+        let thickness = nonnegative(node, "thickness")?;
+        let depth =
+            nonnegative(node, "flake_density")? * nonnegative(node, "flake_area")? * thickness;
+        let correlation = node.number("correlation");
+        if !(0.0..=1.0).contains(&correlation) {
+            let problem = format!("{correlation} is not from 0 to 1");
+            return Err(ParamError::new("correlation", problem));
+        }
+        let binder = 4.0 * PI * k * thickness / lambda;
+        Ok(Self { depth, passes: 2.0 - correlation, binder, printed })
+    }
+
+    /// ω_s for rays with these cosines inside.
+    fn flakes(&self, cos_i: f64, cos_s: f64) -> f64 {
+        if self.printed {
+            return (-self.depth).exp();
+        }
+        let mut whole = self.passes * self.depth;
+        if self.binder > 0.0 {
+            whole += self.binder * (1.0 / cos_i + 1.0 / cos_s);
+        }
+        if whole > 0.0 { -self.depth * (-whole).exp_m1() / whole } else { 0.0 }
+    }
+
+    /// ω_s without absorption.
+    fn covered(&self) -> f64 {
+        -(-self.passes * self.depth).exp_m1() / self.passes
+    }
+
+    /// ω_d without absorption.
+    fn gaps(&self) -> f64 {
+        (-self.passes * self.depth).exp()
+    }
+
+    /// What the binder leaves of a ray with this cosine on the part `part` of its way.
+    fn left(&self, part: f64, cos: f64) -> f64 {
+        if self.binder > 0.0 { (-self.binder * part / cos).exp() } else { 1.0 }
+    }
+
+    /// Mean depth of the flakes that are seen, over the thickness.
+    fn level(&self) -> f64 {
+        let whole = self.passes * self.depth;
+        if whole < 1e-4 { 0.5 - whole / 12.0 } else { 1.0 / whole - 1.0 / whole.exp_m1() }
+    }
 }
 
 impl Pigmented {
     fn read(node: &Node) -> Result<Self, ParamError> {
         let common = Common::read(node)?;
         common.only_reflection(SPEC.class.name)?;
-        let n = node.index("overcoat").at(common.lambda).re;
-        if !(n >= 1.0 && n.is_finite()) {
-            let problem = format!("an index of {n} is below that of the air");
-            return Err(ParamError::new("overcoat", problem));
+        let binder = node.index("overcoat").at(common.lambda);
+        if !(binder.re > 0.0 && binder.re.is_finite() && binder.im >= 0.0) {
+            return Err(ParamError::new("overcoat", format!("{binder} is not an index")));
         }
         let films = node.member::<Stack>("overcoat_films")?.at(common.lambda);
         let roughness =
             Roughness { slopes: node.child("surface_sdf"), shadow: node.child("surface_shadow") };
-        let surface =
-            Interface::new((1.0, n), &films, common.lambda, Some(roughness)).map_err(rename)?;
-        let flakes = Flakes::read(node, &common, n, 1.0 / n)?;
-        let alpha = body::albedo(node, common.lambda, n)?;
+        let surface = Interface::new((1.0, binder.re), &films, common.lambda, Some(roughness))
+            .map_err(rename)?;
         let printed = node.integer("printed");
         if !(0..=2).contains(&printed) {
             return Err(ParamError::new("printed", format!("{printed} is not 0, 1 or 2")));
         }
-        let (flake_weight, gap_weight) = weights(node, printed == 2)?;
         let mut coating = Self {
             common,
-            n,
+            n: binder.re,
             surface,
-            flakes,
-            flake_weight,
+            flakes: Flakes::read(node, &common, binder)?,
+            cover: Cover::read(node, common.lambda, binder.im, printed == 2)?,
+            slab: Slab::uniform(0.0),
             gaps: 0.0,
-            through: 0.0,
-            literal: printed > 0,
+            through: Exchange::default(),
+            exchange: switch(node, "exchange")?,
+            printed: Printed {
+                body: printed > 0,
+                surface: switch(node, "printed_surface")?,
+                flakes: switch(node, "printed_flakes")?,
+            },
         };
-        coating.fill(alpha, gap_weight);
+        coating.fill(node)?;
+        coating.note_limits(node)?;
         Ok(coating)
     }
 
-    /// The strengths of the body with the albedo `alpha`.
-    fn fill(&mut self, alpha: f64, gap_weight: f64) {
-        if self.literal {
-            self.gaps = gap_weight * alpha * FRAC_1_PI;
-            return;
+    /// What is the same for all directions.
+    fn fill(&mut self, node: &Node) -> Result<(), ParamError> {
+        self.slab = body::read(node, self.common.lambda, self.n)?;
+        let alpha = self.slab.reflectance;
+        if self.printed.body {
+            self.gaps = self.cover.gaps() * alpha * FRAC_1_PI;
+            return Ok(());
         }
         let n2 = self.n * self.n;
-        let escaping = self.diffuse(|sin| self.surface.mean_passage(sin)) / n2;
-        let absorbed = self.absorbed_from_inside();
-        let rho = (1.0 - absorbed - escaping).max(0.0);
-        let strength = |rho: f64| alpha * FRAC_1_PI / (n2 * (1.0 - rho * alpha));
-        self.gaps = gap_weight * strength(rho);
-        if !self.flakes.are_opaque() {
-            let through = |sin: f64| {
-                self.surface.mean_passage(sin).then(self.flakes.passage(sin / self.n, (1.0, 0.0)))
-            };
-            let (r, t) = self.flakes.diffuse();
-            let covered = r + t * t * rho / (1.0 - r * rho);
-            self.through =
-                self.flake_weight * strength(covered.min(1.0 - self.diffuse(through) / n2));
+        let shape = |ray: &Ray| self.slab.shape(ray.cos);
+        let escaping = self.escaping(|ray| {
+            self.surface.mean_passage(ray.sin).row()[0] * shape(&ray.below(self.n))
+        });
+        let returned =
+            self.inside(|ray| self.lid(ray) * self.cover.left(2.0, ray.cos) * shape(ray).powi(2));
+        // α returned ≤ 1 − escaping, exactly where nothing absorbs.
+        let rho =
+            if alpha * returned > 1.0 - escaping { (1.0 - escaping) / alpha } else { returned };
+        self.gaps = self.cover.gaps() * alpha * FRAC_1_PI / (n2 * (1.0 - rho * alpha));
+        let weight = self.cover.covered();
+        let seen = weight > 0.0 && (self.exchange || self.flakes.are_transparent());
+        if seen {
+            let Self { flakes, surface, cover, .. } = self;
+            let level = cover.level();
+            let lid = |up: &Ray| surface.sends_back(up).scaled(cover.left(2.0 * level, up.cos));
+            flakes.tabulate(node, &lid, 1.0 / self.n)?;
+            let Exchange { ll, lc, cc } = Exchange::new(&self.means(), alpha);
+            let part = |x: f64| x * weight * FRAC_1_PI / n2;
+            self.through = Exchange { ll: part(ll), lc: part(lc), cc: part(cc) };
         }
+        Ok(())
     }
 
-    /// ∫ ½(s + p) sin 2θ dθ.
-    fn diffuse(&self, passage: impl Fn(f64) -> Passage) -> f64 {
-        gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| passage(t.sin()).row()[0] * (2.0 * t).sin())
-    }
-
-    /// What films on the surface absorb of diffuse light from inside, the roughness left out.
-    fn absorbed_from_inside(&self) -> f64 {
-        if !self.surface.absorbs() {
-            return 0.0;
-        }
-        let n2 = self.n * self.n;
-        let half_space = |sin_outside: &dyn Fn(f64) -> f64, passes: bool| {
-            gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
-                let kappa = sin_outside(t.sin());
-                let passed = if passes { self.surface.smooth_passage(kappa).row()[0] } else { 0.0 };
-                (1.0 - self.surface.reflects_below(kappa).row()[0] - passed) * (2.0 * t).sin()
-            })
+    /// The means over diffuse light at flakes.
+    fn means(&self) -> Means {
+        let level = self.cover.level();
+        let lid = |ray: &Ray| {
+            let back = self.surface.mean_sent_back(ray.sin * self.n);
+            back.scaled(self.cover.left(2.0 * level, ray.cos))
         };
-        let beyond = n2 - 1.0;
-        (half_space(&|sin| sin, true)
-            + beyond * half_space(&|sin| (1.0 + beyond * sin * sin).sqrt(), false))
-            / n2
+        // Ways between flakes and body, once or down and up again.
+        let below = |ray: &Ray, ways: i32| {
+            let left = self.cover.left(f64::from(ways) * (1.0 - level), ray.cos);
+            left * self.slab.shape(ray.cos).powi(ways)
+        };
+        let both = |(s, p): (f64, f64)| 0.5 * (s + p);
+        let with = |a: (f64, f64), b: (f64, f64)| 0.5 * (a.0 * b.0 + a.1 * b.1);
+        let pair = |ray: &Ray| (lid(ray).s, lid(ray).p);
+        let fates = |ray: &Ray| self.flakes.fates(ray.sin);
+        let crossing = |ray: &Ray, of: &dyn Fn(&Ray) -> (f64, f64)| {
+            let (through, inside) = (self.surface.mean_passage(ray.sin), ray.below(self.n));
+            with((through.s, through.p), of(&inside))
+        };
+        let caught = |ray: &Ray| {
+            let (s, p) = fates(ray).caught;
+            let left = self.cover.left(level, ray.cos);
+            (s * left, p * left)
+        };
+        let passed = |ray: &Ray| {
+            let (s, p) = fates(ray).passed;
+            let left = self.cover.left(1.0, ray.cos) * self.slab.shape(ray.cos);
+            (s * left, p * left)
+        };
+        Means {
+            lid: self.inside(|ray| both(pair(ray))),
+            caught_again: self.inside(|ray| with(pair(ray), fates(ray).caught)),
+            passed_down: self.inside(|ray| with(pair(ray), fates(ray).passed) * below(ray, 1)),
+            below: self.inside(|ray| both(fates(ray).returned) * below(ray, 2)),
+            escapes: (
+                self.escaping(|ray| crossing(ray, &caught)),
+                self.escaping(|ray| crossing(ray, &passed)),
+            ),
+        }
     }
 
-    fn body(&self, ray_i: &Ray, ray_s: &Ray) -> Mueller {
-        if self.literal {
-            let row = |ray: &Ray| self.surface.smooth_passage(ray.sin).row();
-            return depolarized(self.gaps, row(ray_s), row(ray_i));
-        }
-        let mut body = depolarized(self.gaps, self.surface.row(ray_s), self.surface.row(ray_i));
-        if self.through > 0.0 {
-            body += depolarized(self.through, self.covered(ray_s), self.covered(ray_i));
-        }
-        body
+    /// What the surface sends back of an unpolarized ray inside, the mean over azimuths.
+    fn lid(&self, inside: &Ray) -> f64 {
+        self.surface.mean_sent_back(inside.sin * self.n).row()[0]
     }
 
-    /// What passes the surface and the flakes below it.
-    fn covered(&self, ray: &Ray) -> [f64; 4] {
-        self.surface.passage(ray).then(self.flakes.passage(ray.sin / self.n, ray.turn)).row()
+    /// The mean ∫f sin 2θ dθ over diffuse light outside, over n²: what of diffuse light inside
+    /// gets out where f passes from outside.
+    fn escaping(&self, f: impl Fn(&Ray) -> f64) -> f64 {
+        let n2 = self.n * self.n;
+        gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| f(&Ray::mean(t.sin())) * (2.0 * t).sin()) / n2
+    }
+
+    /// The mean over diffuse light inside.
+    fn inside(&self, f: impl Fn(&Ray) -> f64) -> f64 {
+        let n2 = self.n * self.n;
+        let kink = n2.min(1.0);
+        let piece = |from: f64, to: f64| {
+            gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
+                let sin2 = (from + (to - from) * t.sin().powi(2)) / n2;
+                f(&Ray::mean(sin2.sqrt().min(1.0))) * (2.0 * t).sin()
+            }) * (to - from)
+                / n2
+        };
+        piece(0.0, kink) + if n2 > kink { piece(kink, n2) } else { 0.0 }
+    }
+
+    fn note_limits(&self, node: &Node) -> Result<(), ParamError> {
+        if body::filled(node) > INDEPENDENT {
+            node.passes(Limit::ParticlesTooDense);
+        }
+        let side = node.number("flake_area").sqrt();
+        let slopes = node.member::<dyn SlopeDistribution>("sdf")?;
+        let tilt = slopes.deviations().map_or(0.0, |(x, y)| x.max(y));
+        let films = node.member::<Stack>("stack")?.at(self.common.lambda);
+        let thickness: f64 = films.iter().map(|(_, t)| t).sum();
+        let room = node.number("flake_density") * side * side * (thickness + tilt * side);
+        if room > 1.0 {
+            node.passes(Limit::FlakesTooDense);
+        }
+        if 1.0 - self.cover.gaps() - self.cover.covered() > LOST {
+            node.passes(Limit::LostBetweenFlakes);
+        }
+        Ok(())
+    }
+
+    fn body(&self, out: &Side, into: &Side) -> Mueller {
+        if self.printed.body {
+            let row = |side: &Side| self.surface.smooth_passage(side.outside.sin).row();
+            return depolarized(self.gaps, row(out), row(into));
+        }
+        let row = |side: &Side| {
+            let left = self.to_body(&side.inside);
+            side.crossing.row.map(|x| x * left)
+        };
+        depolarized(self.gaps, row(out), row(into))
+    }
+
+    /// What of a ray reaches the body, times its share of what a beam at this angle gets back.
+    fn to_body(&self, inside: &Ray) -> f64 {
+        self.cover.left(1.0, inside.cos) * self.slab.shape(inside.cos)
+    }
+
+    /// The rows l and c of a ray.
+    fn spaces(&self, side: &Side) -> ([f64; 4], [f64; 4]) {
+        let (returned, caught) = self.flakes.rows(&side.inside);
+        let kept = &side.crossing.kept;
+        let level = self.cover.left(self.cover.level(), side.inside.cos);
+        let l = if self.exchange { kept.before(caught).map(|x| x * level) } else { [0.0; 4] };
+        if !self.flakes.are_transparent() {
+            return (realizable(l), [0.0; 4]);
+        }
+        let reflected = kept.before(returned);
+        let (s, p) = self.flakes.absorbed(side.inside.sin);
+        let absorbed = kept.before([0.5 * (s + p), 0.5 * (s - p), 0.0, 0.0]);
+        let left = self.to_body(&side.inside);
+        let c = std::array::from_fn(|k| left * (side.crossing.row[k] - reflected[k] - absorbed[k]));
+        (realizable(l), realizable(c))
+    }
+
+    /// Light that went by flakes other than by one reflection.
+    fn through(&self, out: &Side, into: &Side) -> Mueller {
+        let ((l_s, c_s), (l_i, c_i)) = (self.spaces(out), self.spaces(into));
+        let Exchange { ll, lc, cc } = self.through;
+        let mut sum = depolarized(cc, c_s, c_i);
+        if self.exchange {
+            sum += depolarized(ll, l_s, l_i);
+            sum += depolarized(lc, l_s, c_i);
+            sum += depolarized(lc, c_s, l_i);
+        }
+        sum
+    }
+
+    /// One reflection by flakes.
+    fn by_flakes(
+        &self,
+        (into, incidence): (&Side, &Incidence),
+        (out, direction): (&Side, &Direction),
+    ) -> Mueller {
+        let weight = self.cover.flakes(into.inside.cos, out.inside.cos);
+        if weight == 0.0 {
+            return Mueller::ZERO;
+        }
+        let (at, to) = (into.inside.incidence(incidence), out.inside.direction(direction));
+        let mut inner = self.flakes.mueller(&at, &to) * weight;
+        let mut n2 = self.n * self.n;
+        if self.printed.flakes {
+            inner = transposed_jones(&inner) * printed_jacobian(&at, &to);
+            n2 = 1.0;
+        }
+        behind((out.crossing.kept, into.crossing.kept), inner, n2)
     }
 }
 
-/// (ω_s, ω_d).
-fn weights(node: &Node, printed: bool) -> Result<(f64, f64), ParamError> {
-    let depth = nonnegative(node, "flake_density")?
-        * nonnegative(node, "flake_area")?
-        * nonnegative(node, "thickness")?;
-    let correlation = node.number("correlation");
-    if !(0.0..=1.0).contains(&correlation) {
-        let problem = format!("{correlation} is not from 0 to 1");
-        return Err(ParamError::new("correlation", problem));
+/// A ray, outside and inside, and what of it crosses the surface.
+struct Side {
+    outside: Ray,
+    inside: Ray,
+    crossing: Crossing,
+}
+
+/// The Mueller matrix of the transposed Jones matrix.
+fn transposed_jones(m: &Mueller) -> Mueller {
+    let d = Mueller::diagonal([1.0, 1.0, 1.0, -1.0]);
+    d * m.transposed() * d
+}
+
+/// (1 + ζ)²/(1 + ζ²)² of the facet that reflects one ray into the other.
+fn printed_jacobian(at: &Incidence, to: &Direction) -> f64 {
+    let (x, y) = (to.sin * to.cos_phi - at.sin, to.sin * to.sin_phi);
+    let slope = x.hypot(y) / (at.cos + to.cos);
+    ((1.0 + slope) / (1.0 + slope * slope)).powi(2)
+}
+
+/// The parameter `name`, 0 or 1.
+fn switch(node: &Node, name: &str) -> Result<bool, ParamError> {
+    match node.integer(name) {
+        0 => Ok(false),
+        1 => Ok(true),
+        other => Err(ParamError::new(name, format!("{other} is not 0 or 1"))),
     }
-    let passes = 2.0 - correlation;
-    let open = (-passes * depth).exp();
-    if printed {
-        return Ok(((-depth).exp(), open));
-    }
-    Ok((-(-passes * depth).exp_m1() / passes, open))
 }
 
 /// The names that the facets of the surface have in the coating.
@@ -272,19 +511,23 @@ impl Brdf for Pigmented {
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
-        let (ray_i, ray_s) = (Ray::incident(incidence), Ray::reversed(incidence, direction));
-        let mut sum = self.body(&ray_i, &ray_s);
+        let side = |outside: Ray| Side {
+            outside,
+            inside: outside.below(self.n),
+            crossing: self.surface.crossing(&outside),
+        };
+        let (into, out) =
+            (side(Ray::incident(incidence)), side(Ray::reversed(incidence, direction)));
+        let mut sum = self.body(&out, &into);
         if let Some(facets) = self.surface.facets() {
-            sum += facets.mueller(incidence, direction);
+            let seen = facets.mueller(incidence, direction);
+            sum += if self.printed.surface { transposed_jones(&seen) } else { seen };
         }
-        if self.flake_weight > 0.0 {
-            let (at, to) = (
-                ray_i.below(self.n).incidence(incidence),
-                ray_s.below(self.n).direction(direction),
-            );
-            let crossings = (self.surface.passage(&ray_s), self.surface.passage(&ray_i));
-            let inner = self.flakes.mueller(&at, &to) * self.flake_weight;
-            sum += behind(crossings, inner, self.n * self.n);
+        if self.cover.depth > 0.0 || self.cover.printed {
+            sum += self.by_flakes((&into, incidence), (&out, direction));
+            if self.through != Exchange::default() {
+                sum += self.through(&out, &into);
+            }
         }
         sum
     }

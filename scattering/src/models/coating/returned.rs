@@ -14,7 +14,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::{Direction, Incidence, Mueller, slope::SlopeDistribution, special::gauss};
+use crate::{Direction, Incidence, slope::SlopeDistribution, special::gauss};
 
 /// Intervals of the table in angle.
 const ANGLES: usize = 64;
@@ -28,6 +28,8 @@ const ROTATIONS: usize = 16;
 /// [`FARTHEST`] standard deviations.
 const NEGLIGIBLE: f64 = 1e-11;
 const FARTHEST: f64 = 12.0;
+/// Steps in which a ray is searched for the edge.
+const EDGE_STEPS: usize = 12;
 /// The share of what returns by which the table is too large, more than its error, so that no
 /// energy is gained.
 const MARGIN: f64 = 2e-4;
@@ -37,56 +39,74 @@ const GRAZING: f64 = FRAC_PI_2 - 1e-4;
 /// The rows of one surface.
 #[derive(Clone, Debug)]
 pub(super) struct Returned {
-    /// Angle of the last node.
-    last: f64,
     /// For every node the coefficients of 1, cos 2r, sin 2r, cos 4r, …
     nodes: Vec<Vec<[f64; 4]>>,
 }
 
 impl Returned {
-    /// The rows of the facets `brdf` with these slopes up to the angle `last`, less `smooth` (a
-    /// function of the sine and the cosine of incidence).
-    pub(super) fn tabulate(
+    /// The integrals of `rows`, first rows of BRDFs of facets with these slopes, less `smooth`, what
+    /// they are for a smooth surface (a function of the sine of incidence).
+    ///
+    /// `edge` is the sine of the exit at which rows bend, as where total reflection begins.
+    ///
+    /// Of each the intensity is taken too large ([`Safe::Large`]) or too small by more than the
+    /// error of the table.
+    pub(super) fn tabulate<const N: usize>(
         slopes: &dyn SlopeDistribution,
-        brdf: &dyn Fn(&Incidence, &Direction) -> Mueller,
-        smooth: &dyn Fn(f64, f64) -> [f64; 4],
-        last: f64,
-    ) -> Self {
-        let last = last.min(GRAZING);
-        let rotations = if is_isotropic(slopes) { 1 } else { ROTATIONS };
-        let rule = Rule::new(slopes);
-        let node = |j: usize| {
-            let theta = last * angle(j as f64 / ANGLES as f64);
-            let row = |k: usize| -> [f64; 4] {
+        rows: &Rows<'_, N>,
+        smooth: &dyn Fn(f64) -> [[f64; 4]; N],
+        (edge, safe): (Option<f64>, [Safe; N]),
+    ) -> [Self; N] {
+        let rule = Rule::new(slopes, edge);
+        let isotropic = rule.is_isotropic(rows);
+        let rotations = if isotropic { 1 } else { ROTATIONS };
+        let node = |j: usize| -> [Vec<[f64; 4]>; N] {
+            let theta = GRAZING * angle(j as f64 / ANGLES as f64);
+            let row = |k: usize| -> [[f64; 4]; N] {
                 let at = Incidence::new(theta, PI * k as f64 / rotations as f64);
-                let (whole, flat) = (rule.integrate(&at, brdf), smooth(at.sin, at.cos));
-                let factor = |i| if i == 0 { 1.0 + MARGIN } else { 1.0 };
-                std::array::from_fn(|i| factor(i) * whole[i] - flat[i])
+                let (whole, flat) = (rule.integrate(&at, rows, isotropic), smooth(at.sin));
+                std::array::from_fn(|n| {
+                    let factor = |i| if i == 0 { safe[n].factor() } else { 1.0 };
+                    std::array::from_fn(|i| factor(i) * whole[n][i] - flat[n][i])
+                })
             };
             let quarter: Vec<_> = (0..=rotations / 2).map(row).collect();
             // The mirror image has the opposite U and V.
-            let mirrored = |k: usize| match quarter.get(k) {
-                Some(row) => *row,
+            let mirrored = |n: usize, k: usize| match quarter.get(k) {
+                Some(rows) => rows[n],
                 None => {
-                    let [i, q, u, v] = quarter[rotations - k];
+                    let [i, q, u, v] = quarter[rotations - k][n];
                     [i, q, -u, -v]
                 }
             };
-            let rows: Vec<_> = (0..rotations).map(mirrored).collect();
-            series(&rows)
+            std::array::from_fn(|n| {
+                let rows: Vec<_> = (0..rotations).map(|k| mirrored(n, k)).collect();
+                series(&rows)
+            })
         };
-        Self { last, nodes: (0..=ANGLES).map(node).collect() }
+        let nodes: Vec<_> = (0..=ANGLES).map(node).collect();
+        std::array::from_fn(|n| Self { nodes: nodes.iter().map(|node| node[n].clone()).collect() })
     }
 
     /// The difference to the smooth row at the angle of incidence `theta` and the rotation whose
     /// doubled angle has this cosine and sine.
     pub(super) fn at(&self, theta: f64, cos_2r: f64, sin_2r: f64) -> [f64; 4] {
-        let x = ANGLES as f64 * (1.0 - (1.0 - theta.abs() / self.last).max(0.0).sqrt());
+        self.sum(theta, self.nodes[0].len(), cos_2r, sin_2r)
+    }
+
+    /// The mean over all rotations.
+    pub(super) fn mean(&self, theta: f64) -> [f64; 4] {
+        self.sum(theta, 1, 1.0, 0.0)
+    }
+
+    /// The first `orders` terms of the series.
+    fn sum(&self, theta: f64, orders: usize, cos_2r: f64, sin_2r: f64) -> [f64; 4] {
+        let x = ANGLES as f64 * (1.0 - (1.0 - theta.abs() / GRAZING).max(0.0).sqrt());
         let first = (x as usize).saturating_sub(1).min(ANGLES - 3);
         let weights = lagrange(x - first as f64);
         let mut row = [0.0; 4];
         let (mut cos, mut sin) = (1.0, 0.0);
-        for order in 0..self.nodes[0].len() {
+        for order in 0..orders {
             // 0: 1; 1: cos 2r, 2: sin 2r, …
             if order % 2 == 1 {
                 (cos, sin) = (cos * cos_2r - sin * sin_2r, sin * cos_2r + cos * sin_2r);
@@ -101,12 +121,26 @@ impl Returned {
         }
         row
     }
+}
 
-    /// The mean over all rotations.
-    pub(super) fn mean(&self, theta: f64) -> [f64; 4] {
-        let whole =
-            Self { last: self.last, nodes: self.nodes.iter().map(|node| vec![node[0]]).collect() };
-        whole.at(theta, 1.0, 0.0)
+/// First rows of BRDFs of facets.
+pub(super) type Rows<'a, const N: usize> = dyn Fn(&Incidence, &Direction) -> [[f64; 4]; N] + 'a;
+
+/// On which side of the truth the error of a table has to be.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Safe {
+    /// What passes is the rest of it.
+    Large,
+    /// It is added to what is there.
+    Small,
+}
+
+impl Safe {
+    fn factor(self) -> f64 {
+        match self {
+            Self::Large => 1.0 + MARGIN,
+            Self::Small => 1.0 - MARGIN,
+        }
     }
 }
 
@@ -143,17 +177,6 @@ fn series(rows: &[[f64; 4]]) -> Vec<[f64; 4]> {
     coefficients
 }
 
-fn is_isotropic(slopes: &dyn SlopeDistribution) -> bool {
-    let (x, y) = deviations(slopes);
-    [0.5, 1.0, 2.0].into_iter().all(|scale| {
-        let s = scale * x.max(y);
-        let along = slopes.density(s, 0.0);
-        [(0.0, s), (0.6 * s, 0.8 * s), (-0.8 * s, 0.6 * s)]
-            .into_iter()
-            .all(|(x, y)| (slopes.density(x, y) - along).abs() <= 1e-9 * along)
-    })
-}
-
 /// Standard deviations, or a wide range where none are known.
 fn deviations(slopes: &dyn SlopeDistribution) -> (f64, f64) {
     slopes.deviations().unwrap_or((0.3, 0.3))
@@ -165,31 +188,55 @@ struct Rule {
     /// End of the integral in standard deviations.
     reach: f64,
     radii: Vec<(f64, f64)>,
+    /// Cosine of the exit at which the integrand bends.
+    edge: Option<f64>,
 }
 
 impl Rule {
-    fn new(slopes: &dyn SlopeDistribution) -> Self {
+    fn new(slopes: &dyn SlopeDistribution, edge: Option<f64>) -> Self {
         let deviations = deviations(slopes);
         let negligible = NEGLIGIBLE * slopes.density(0.0, 0.0);
         let mut reach = 1.0;
         while reach < FARTHEST && slopes.density(reach * deviations.0, 0.0) > negligible {
             reach += 0.25;
         }
-        Self { deviations, reach, radii: gauss::legendre(RADII, 0.0, 1.0) }
+        let edge = edge.filter(|sin| *sin < 1.0).map(|sin| (1.0 - sin * sin).sqrt());
+        Self { deviations, reach, radii: gauss::legendre(RADII, 0.0, 1.0), edge }
     }
 
-    fn integrate(
+    /// Whether the rows do not depend on the rotation of the sample.
+    fn is_isotropic<const N: usize>(&self, rows: &Rows<'_, N>) -> bool {
+        let s = self.deviations.0.min(self.deviations.1);
+        // Rows may vanish at the greater angle, where nothing gets out.
+        [(0.3, 0.5, 0.2), (0.9, -0.7, 1.1)].into_iter().all(|(theta, x, y)| {
+            let turned = |rotation: f64| {
+                let at = Incidence::new(theta, rotation);
+                reflected(&at, x * s, y * s).map(|(direction, _)| rows(&at, &direction))
+            };
+            let first = turned(0.0);
+            [0.4, 0.9, FRAC_PI_2].into_iter().all(|rotation| match (&first, turned(rotation)) {
+                (Some(first), Some(other)) => same(first.as_flattened(), other.as_flattened()),
+                _ => true,
+            })
+        })
+    }
+
+    /// The integrals at one incidence; `mirrored` where both halves of the azimuths are images of
+    /// each other.
+    fn integrate<const N: usize>(
         &self,
         at: &Incidence,
-        brdf: &dyn Fn(&Incidence, &Direction) -> Mueller,
-    ) -> [f64; 4] {
-        let mut sum = [0.0; 4];
+        rows: &Rows<'_, N>,
+        mirrored: bool,
+    ) -> [[f64; 4]; N] {
+        let mut sum = [[0.0; 4]; N];
         let (least, most) = AZIMUTHS;
         let (x, y) = self.deviations;
         let elongation = (x / y).max(y / x).min(2.0);
         let wanted = least as f64 * elongation * (1.0 + 0.5 * at.sin / at.cos);
-        let azimuths = (wanted as usize).min(most);
-        for j in 0..azimuths {
+        let azimuths = 2 * (wanted as usize).min(most).div_ceil(2);
+        let (taken, share) = if mirrored { (azimuths / 2, 2.0) } else { (azimuths, 1.0) };
+        for j in 0..taken {
             // Not in the plane of incidence, where a shadow function may jump.
             let psi = TAU * (j as f64 + 0.5) / azimuths as f64;
             let (x, y) = (self.deviations.0 * psi.cos(), self.deviations.1 * psi.sin());
@@ -197,22 +244,63 @@ impl Rule {
             // The ray ζ = u(x, y) of the sample in the laboratory.
             let ray = (x * c - y * s, y * c + x * s);
             let top = last_upward(ray, at).min(self.reach);
-            let area = self.deviations.0 * self.deviations.1 * TAU / azimuths as f64;
-            for &(u, weight) in &self.radii {
-                let radius = top * u;
-                let Some((direction, measure)) = reflected(at, radius * ray.0, radius * ray.1)
-                else {
-                    continue;
-                };
-                let factor = weight * top * radius * area * measure;
-                let row = brdf(at, &direction).0[0];
-                for (x, value) in sum.iter_mut().zip(row) {
-                    *x += factor * value;
+            let area = share * self.deviations.0 * self.deviations.1 * TAU / azimuths as f64;
+            for (from, to) in self.pieces(at, ray, top) {
+                for &(u, weight) in &self.radii {
+                    let radius = from + (to - from) * u;
+                    let Some((direction, measure)) = reflected(at, radius * ray.0, radius * ray.1)
+                    else {
+                        continue;
+                    };
+                    let factor = weight * (to - from) * radius * area * measure;
+                    let values = rows(at, &direction);
+                    for (x, value) in sum.as_flattened_mut().iter_mut().zip(values.as_flattened()) {
+                        *x += factor * value;
+                    }
                 }
             }
         }
+        if mirrored {
+            sum.iter_mut().for_each(|row| row[2..].fill(0.0));
+        }
         sum
     }
+}
+
+impl Rule {
+    /// The parts of a ray of slopes up to `top` between which the exit crosses the edge.
+    fn pieces(&self, at: &Incidence, ray: (f64, f64), top: f64) -> Vec<(f64, f64)> {
+        let Some(edge) = self.edge else { return vec![(0.0, top)] };
+        let above = |radius: f64| {
+            let exit = reflected(at, radius * ray.0, radius * ray.1);
+            exit.is_some_and(|(direction, _)| direction.cos > edge)
+        };
+        let mut pieces = Vec::new();
+        let mut from = 0.0;
+        let (mut before, mut was) = (0.0, above(0.0));
+        for step in 1..=EDGE_STEPS {
+            let here = top * step as f64 / EDGE_STEPS as f64;
+            let is = above(here);
+            if is != was {
+                let (mut low, mut high) = (before, here);
+                for _ in 0..30 {
+                    let middle = 0.5 * (low + high);
+                    if above(middle) == was { low = middle } else { high = middle }
+                }
+                pieces.push((from, low));
+                from = low;
+            }
+            (before, was) = (here, is);
+        }
+        pieces.push((from, top));
+        pieces
+    }
+}
+
+/// Equal but for rounding.
+fn same(a: &[f64], b: &[f64]) -> bool {
+    let largest = a.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-9 * largest)
 }
 
 /// The largest u for which facets of slope u·`ray` send the light upwards.

@@ -1,0 +1,121 @@
+//! Light that rough interfaces of a coating keep among themselves.
+//!
+//! A rough interface sends light into all directions; what of it meets another interface is not
+//! followed. Without absorption all that is neither sent out nor let pass,
+//!
+//! $$ \mathbf m = (1, 0) - \mathbf p - \mathbf r - \sum_j \mathbf p_j \mathbf x_j, \qquad
+//!    \mathbf x_j = \int \mathbf p_j(\theta_s)\,\mathbf F_j\cos\theta_s\,d\Omega_s $$
+//!
+//! is taken as diffuse light that reaches the body: p passes all layers, r is sent out by smooth
+//! interfaces, p_j is what passes the layers above the rough interface j, x_j what of its light
+//! gets out through them. Diffuse light from the body then comes out by 1 − ρ = ∫(p + m) sin 2θ
+//! dθ/n², as reciprocity has it, and over a white body nothing is lost. Intensity and Q are
+//! followed; absorption takes of m what it takes of a ray on its way down.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::{
+    interface::Ray,
+    layered::{Above, Coat, Media},
+    returned::{Returned, Safe},
+};
+use crate::{Direction, Incidence, special::gauss};
+
+/// Nodes of the integral over diffuse light.
+const NODES: usize = 96;
+/// Azimuths of the same: more than the tables have orders.
+const AZIMUTHS: usize = 24;
+
+/// What of the light of each rough interface gets out.
+pub(super) struct Closing {
+    /// x_j for the interfaces below others.
+    seen: Vec<Option<Returned>>,
+}
+
+impl Closing {
+    /// Nothing if all interfaces are smooth, or films absorb some of what is missing.
+    pub(super) fn new(coats: &[Coat]) -> Option<Self> {
+        let rough = coats.iter().any(|coat| coat.interface.is_rough());
+        if !rough || coats.iter().any(|coat| coat.interface.absorbs()) {
+            return None;
+        }
+        Some(Self { seen: (0..coats.len()).map(|j| seen(&coats[..j], &coats[j])).collect() })
+    }
+
+    /// ρ without absorption.
+    pub(super) fn sent_back(&self, coats: &[Coat]) -> f64 {
+        let n = coats.last().map_or(1.0, |coat| coat.n);
+        let out = gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
+            let whole = (0..AZIMUTHS).map(|k| {
+                let (sin_2r, cos_2r) = (TAU * k as f64 / AZIMUTHS as f64).sin_cos();
+                let ray = Ray { turn: (cos_2r, sin_2r), ..Ray::mean(t.sin()) };
+                let (passes, missing, _) = self.follow(coats, ray);
+                passes[0] + missing[0]
+            });
+            whole.sum::<f64>() / AZIMUTHS as f64 * (2.0 * t).sin()
+        });
+        (1.0 - out / (n * n)).max(0.0)
+    }
+
+    /// Adds to `row`, what of `ray` passes all layers, what reaches the body otherwise.
+    pub(super) fn add(&self, row: &mut [f64; 4], coats: &[Coat], ray: Ray) {
+        let (_, missing, left) = self.follow(coats, ray);
+        for (x, m) in row.iter_mut().zip(missing) {
+            *x += left * m;
+        }
+    }
+
+    /// (p, m, what absorption leaves of m) of a ray.
+    fn follow(&self, coats: &[Coat], mut ray: Ray) -> ([f64; 4], [f64; 4], f64) {
+        let mut above = Above::NOTHING;
+        let mut missing = [1.0, 0.0, 0.0, 0.0];
+        let mut left = 1.0;
+        let mut lessen = |by: [f64; 4]| {
+            missing[0] -= by[0];
+            missing[1] -= by[1];
+        };
+        for (coat, seen) in coats.iter().zip(&self.seen) {
+            if coat.interface.is_rough() {
+                let out = match seen {
+                    None => coat.interface.returned(&ray),
+                    Some(seen) => seen.at(ray.sin.min(1.0).asin(), ray.turn.0, ray.turn.1),
+                };
+                lessen(above.passes.before(out));
+            }
+            let below = ray.below(coat.interface.n);
+            above = coat.add(above, &ray, below.cos, Media::Clear);
+            left *= coat.left(below.cos, Media::Lossy);
+            ray = below;
+        }
+        lessen(above.mirrored.row());
+        let passes = above.passes.row();
+        lessen(passes);
+        let intensity = missing[0].max(0.0);
+        (passes, [intensity, missing[1].clamp(-intensity, intensity), 0.0, 0.0], left)
+    }
+}
+
+/// What of the light of the rough interface of `coat` gets out through the layers `above` it.
+fn seen(above: &[Coat], coat: &Coat) -> Option<Returned> {
+    let (facets, slopes) = (coat.interface.facets()?, coat.interface.slopes()?);
+    let n = above.last()?.n;
+    let rows = |at: &Incidence, to: &Direction| {
+        let inside = Ray::reversed(at, to);
+        let sin = inside.sin * n;
+        if sin >= 1.0 {
+            return [[0.0; 4]];
+        }
+        let mut ray = Ray { turn: inside.turn, ..Ray::mean(sin) };
+        let mut passed = Above::NOTHING;
+        for coat in above {
+            let below = ray.below(coat.interface.n);
+            passed = coat.add(passed, &ray, below.cos, Media::Clear);
+            ray = below;
+        }
+        let (out, up) = (passed.passes.row(), facets.mueller(at, to).0);
+        [std::array::from_fn(|j| out[0] * up[0][j] + out[1] * up[1][j])]
+    };
+    let edge = Some(1.0 / n);
+    let [seen] = Returned::tabulate(slopes, &rows, &|_| [[0.0; 4]], (edge, [Safe::Large]));
+    Some(seen)
+}

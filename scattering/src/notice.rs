@@ -1,0 +1,70 @@
+//! What a build tells beside its result: defects that it stepped around, limits that it passed.
+
+use std::fmt;
+
+use crate::Defect;
+
+/// Something that a user should know of a result; it is no error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Notice {
+    /// The result differs from that of NIST's library by this defect.
+    Defect(Defect),
+    /// The parameters lie outside of the range in which the model is right.
+    Limit(Limit),
+}
+
+/// A limit of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Limit {
+    /// Particles of a coating are so close that they do not scatter independently.
+    ParticlesTooDense,
+    /// Flakes of a coating are so many that they cannot tilt as their slopes say.
+    FlakesTooDense,
+    /// Light that a coating loses between its flakes.
+    LostBetweenFlakes,
+}
+
+impl Limit {
+    /// What is wrong, and what could be done.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::ParticlesTooDense => {
+                "the particles fill more than a tenth of the volume and do not scatter \
+                 independently there: lower particle_density"
+            }
+            Self::FlakesTooDense => {
+                "the flakes need more than the whole volume to tilt as sdf says: lower \
+                 flake_density or the slopes"
+            }
+            Self::LostBetweenFlakes => {
+                "more than a twentieth of the light is lost between flakes: raise correlation or \
+                 lower flake_density"
+            }
+        }
+    }
+}
+
+impl From<Defect> for Notice {
+    fn from(defect: Defect) -> Self {
+        Self::Defect(defect)
+    }
+}
+
+impl From<Limit> for Notice {
+    fn from(limit: Limit) -> Self {
+        Self::Limit(limit)
+    }
+}
+
+impl fmt::Display for Notice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Defect(defect) => write!(
+                f,
+                "this run meets a defect of NIST's library and has the sound value (--compat \
+                 reproduces NIST's) [{defect}]"
+            ),
+            Self::Limit(limit) => f.write_str(limit.describe()),
+        }
+    }
+}
