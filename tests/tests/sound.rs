@@ -45,3 +45,26 @@ fn directions_of_models_without_defects_are_the_same_in_both_modes() {
         tables(&sound.results, &run(Mode::Compat).0.results, tolerance).unwrap();
     }
 }
+
+#[test]
+fn the_end_of_a_loop_belongs_to_it_whatever_its_steps_are_rounded_to() {
+    let text = |vary: &str| {
+        format!(
+            "MODEL = Lambertian_BRDF_Model VARIABLES: a = 0 incidentangle = 0 rotation = 0 \
+             incidentpol = (1,0,0,0) differential = 1 minsamples = 1 END VARY: {vary} END \
+             INTEGRALS: END OUTPUTS: 1 b=a END FILES: END "
+        )
+    };
+    for (vary, rows) in [
+        ("FOR a FROM 0 TO 0.3 BY 0.1", 4),
+        ("FOR a FROM 0.3 TO 0 BY -0.1", 4),
+        ("FOR a FROM -0.1 TO -0.3 BY -0.1", 3),
+        ("FOR a FROM 1 TO 2 BY 0.7", 2),
+    ] {
+        let files = std::sync::Arc::new(mist_engine::MemoryFiles::default());
+        let job = mist_engine::compile(&text(vary), files, &mist_engine::Options::default());
+        let mut sink = mist_engine::MemorySink::default();
+        job.unwrap().run(&mut sink, &mist_engine::Control::default()).unwrap();
+        assert_eq!(sink.results.lines().count(), rows + 1, "{vary}: {}", sink.results);
+    }
+}
