@@ -32,6 +32,7 @@
 mod advice;
 mod fault;
 mod files;
+mod journal;
 mod limits;
 mod listing;
 mod scope;
@@ -60,6 +61,7 @@ pub use compile::compile;
 pub use fault::{Failure, Fault};
 pub use files::{FileError, Files, Library, MemoryFiles};
 pub use job::{Job, Options};
+pub use journal::{Finished, Journal};
 pub use limits::{Control, Limits};
 pub use output::{MemorySink, Sink, Stream};
 pub use run::Summary;

@@ -1,9 +1,11 @@
 //! Materials outside of programs: a model with parameters and data files, ready to be asked.
 //!
 //! A [`Material`] is what a user writes as JSON, a [`Prepared`] material what is evaluated: by
-//! [`eval`] for single geometries, by [`table`] for the colour tables of renderers.
+//! [`eval`] for single geometries, by [`lobes`] for the directions of a renderer, by [`table`] for
+//! its colour tables.
 
 pub mod eval;
+pub mod lobes;
 pub mod query;
 pub mod results;
 pub mod table;

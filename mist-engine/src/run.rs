@@ -8,6 +8,7 @@ use crate::{
     Control, Failure, Job,
     colour::{ColourTable, fold::Fold},
     fault::Fault,
+    journal::{Finished, Forgetful, Journal},
     limits::Meter,
     listing,
     output::{Outputs, Sink, Stream, head},
@@ -46,7 +47,22 @@ impl Job {
     /// What is wrong with a step, a limit that was reached, a wish to stop, a table that cannot
     /// be written. What `sink` has taken until then is not the table of the job.
     pub fn run(&self, sink: &mut dyn Sink, control: &Control) -> Result<Summary, Failure> {
-        Runner::new(self, sink, control).run()
+        self.run_on(sink, control, &mut Forgetful)
+    }
+
+    /// Runs the job and keeps its steps in `journal`; those that the journal has are not
+    /// evaluated again. The texts are the same to the last bit, but for the time in the listing.
+    ///
+    /// # Errors
+    ///
+    /// As [`Job::run`], and if the journal cannot be read or written.
+    pub fn run_on(
+        &self,
+        sink: &mut dyn Sink,
+        control: &Control,
+        journal: &mut dyn Journal,
+    ) -> Result<Summary, Failure> {
+        Runner::new(self, sink, control, journal).run()
     }
 }
 
@@ -54,6 +70,7 @@ struct Runner<'a> {
     job: &'a Job,
     sink: &'a mut dyn Sink,
     control: &'a Control,
+    journal: &'a mut dyn Journal,
     meter: Meter<'a>,
     shared: Shared<'a>,
     outputs: Outputs<'a>,
@@ -62,11 +79,17 @@ struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    fn new(job: &'a Job, sink: &'a mut dyn Sink, control: &'a Control) -> Self {
+    fn new(
+        job: &'a Job,
+        sink: &'a mut dyn Sink,
+        control: &'a Control,
+        journal: &'a mut dyn Journal,
+    ) -> Self {
         Self {
             job,
             sink,
             control,
+            journal,
             meter: Meter::new(&job.options.limits),
             shared: Shared::new(job, control),
             outputs: Outputs::new(job),
@@ -140,55 +163,87 @@ impl<'a> Runner<'a> {
     }
 
     fn evaluate(&mut self, mut block: Vec<Step>, replay: &mut Replay<'_>) -> Result<(), Failure> {
+        let mut all = self.recalled(&block)?;
+        let known = all.len();
         let values = if self.job.chained {
-            self.evaluate_chain(&mut block, replay)?
+            self.evaluate_chain(&mut block, &all, replay)?
         } else {
-            self.shared.evaluate(&block, &mut self.meter)?
+            self.shared.evaluate(&block[known..], &mut self.meter)?
         };
-        for (step, values) in block.iter().zip(values) {
+        let new = block[known..].iter().zip(values);
+        all.extend(new.map(|(step, values)| Finished { values, samples: self.samples(step) }));
+        self.summary.met.extend(self.shared.take_met());
+        if block.iter().flat_map(|step| &step.integrals).any(is_cut_by_nist) {
+            self.summary.met.insert(Defect::PolygonHorizon.into());
+        }
+        if let Some(first) = block.get(known) {
+            self.journal.keep(first.index, &all[known..])?;
+        }
+        for (step, finished) in block.iter().zip(&all) {
             self.sink.write(Stream::Listing, &step.listing)?;
-            let line =
-                self.outputs.line(step, &values).map_err(|fault| at_step(step.index, fault))?;
+            let line = self
+                .outputs
+                .line(step, &finished.values)
+                .map_err(|fault| at_step(step.index, fault))?;
             self.sink.write(Stream::Results, &line.text)?;
             self.sink.row(&line.loops, &line.outputs)?;
             if let Some(fold) = &mut self.fold {
                 fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
             }
-            if self.job.samples_name().is_some() {
-                let text = self.shared.samples(step);
-                self.sink.write(Stream::Samples, &text)?;
-            }
+            self.sink.write(Stream::Samples, &finished.samples)?;
             if self.job.in_order {
                 self.outputs.feed_back(&mut replay.scope);
             }
         }
-        self.summary.met.extend(self.shared.take_met());
-        if block.iter().flat_map(|step| &step.integrals).any(is_cut_by_nist) {
-            self.summary.met.insert(Defect::PolygonHorizon.into());
-        }
         Ok(())
     }
-}
 
-impl Runner<'_> {
-    /// Integrals whose apertures read integrals before them, one after the other.
+    /// What the journal has of the first steps of `block`.
+    fn recalled(&mut self, block: &[Step]) -> Result<Vec<Finished>, Failure> {
+        let mut known = Vec::new();
+        for step in block {
+            match self.journal.recall(step.index)? {
+                Some(finished) => known.push(finished),
+                None => break,
+            }
+        }
+        Ok(known)
+    }
+
+    fn samples(&mut self, step: &Step) -> String {
+        match self.job.samples_name() {
+            Some(_) => self.shared.samples(step),
+            None => String::new(),
+        }
+    }
+
+    /// Integrals whose apertures read integrals before them, one after the other; those of the
+    /// first steps are `known`.
     fn evaluate_chain(
         &mut self,
         block: &mut [Step],
+        known: &[Finished],
         replay: &mut Replay<'_>,
     ) -> Result<Vec<Vec<f64>>, Failure> {
         let mut all = Vec::with_capacity(block.len());
-        for step in block {
+        for (at, step) in block.iter_mut().enumerate() {
             let mut values = Vec::new();
-            for plan in &self.job.integrals {
+            for (number, plan) in self.job.integrals.iter().enumerate() {
                 replay.add_integral(step).map_err(|fault| at_step(step.index, fault))?;
-                self.price(step)?;
-                let only = std::slice::from_ref(&*step);
-                values = self.shared.evaluate(only, &mut self.meter)?.remove(0);
-                let last = values.last().copied().unwrap_or(f64::NAN);
-                replay.scope.set(plan.slot, last.into());
+                let last = match known.get(at) {
+                    Some(finished) => finished.values.get(number),
+                    None => {
+                        self.price(step)?;
+                        let only = std::slice::from_ref(&*step);
+                        values = self.shared.evaluate(only, &mut self.meter)?.remove(0);
+                        values.last()
+                    }
+                };
+                replay.scope.set(plan.slot, last.copied().unwrap_or(f64::NAN).into());
             }
-            all.push(values);
+            if at >= known.len() {
+                all.push(values);
+            }
         }
         Ok(all)
     }

@@ -4,7 +4,10 @@
 //! evaluated in batches; the bits do not depend on the number of threads. Nodes at or below the
 //! horizon are filled from 89.9° and flagged.
 
-use std::f64::consts::FRAC_PI_2;
+use std::{
+    collections::HashMap,
+    f64::consts::{FRAC_PI_2, PI},
+};
 
 use rayon::prelude::*;
 use scattering::{Basis, Incidence, Model, Mueller, Stokes};
@@ -63,6 +66,19 @@ pub enum What {
     Grid(GridRequest),
     /// These, in this order.
     List(Vec<Place>),
+}
+
+impl What {
+    /// How many rows the table has.
+    pub fn rows(&self) -> f64 {
+        match self {
+            Self::Grid(grid) => [&grid.thetai, &grid.thetas, &grid.phis]
+                .iter()
+                .map(|axis| axis.len() as f64)
+                .product(),
+            Self::List(list) => list.len() as f64,
+        }
+    }
 }
 
 /// The nodes of a grid, degrees, rising.
@@ -143,6 +159,7 @@ pub fn table(
     let colours = Colours::new(&request.wavelengths, &request.settings)?;
     let work = Work::new(material, request)?;
     let components = if request.stokes || !request.settings.filters.is_empty() { 4 } else { 1 };
+    let scale = scale(request.settings.quantity);
     let mut rows: Vec<Option<ColourRow>> = (0..work.rows).map(|_| None).collect();
     let (mut albedo, mut dark) = (Vec::new(), true);
     for (number, group) in work.groups.iter().enumerate() {
@@ -153,7 +170,8 @@ pub fn table(
             .map(|k| {
                 let mut spectra: [Vec<f64>; 4] = Default::default();
                 for (component, spectrum) in spectra.iter_mut().enumerate().take(components) {
-                    *spectrum = means.iter().map(|m| (m[k] * light).0[component]).collect();
+                    let value = |m: &Vec<Mueller>| scale * (m[k] * light).0[component];
+                    *spectrum = means.iter().map(value).collect();
                 }
                 group.row(k, &work, &colours.plan, spectra)
             })
@@ -180,7 +198,7 @@ pub fn table(
     let head = Head {
         material: request.material.clone(),
         incident: request.incident,
-        frame: basis_name(request.basis),
+        frame: request.basis.name(),
         layout: layout(&request.what),
         patch: patch_name(&request.what),
         leading: Vec::new(),
@@ -189,7 +207,25 @@ pub fn table(
     Ok(colours.table(head, rows.into_iter().flatten().collect(), albedo))
 }
 
-/// Per row of a list and per wavelength the mean Mueller BRDF (1/sr) of the patch.
+/// What a BRDF (1/sr) is multiplied with to be `quantity`.
+pub(super) fn scale(quantity: Quantity) -> f64 {
+    if quantity == Quantity::Factor { PI } else { 1.0 }
+}
+
+/// The mean Mueller BRDF of a patch, per wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MuellerRow {
+    /// thetai, thetas, phis as they were asked for, degrees.
+    pub angles: [f64; 3],
+    /// Projected solid angle, sr; 0 for a point.
+    pub omega: f64,
+    /// One matrix (1/sr) per wavelength.
+    pub matrices: Vec<Mueller>,
+    /// As [`ColourRow::flags`].
+    pub flags: u8,
+}
+
+/// The mean Mueller BRDFs of every patch, in the order of the request.
 ///
 /// # Errors
 ///
@@ -198,17 +234,27 @@ pub fn mueller(
     material: &Prepared,
     request: &TableRequest,
     control: &Control,
-) -> Result<Vec<Vec<Mueller>>, MaterialError> {
+) -> Result<Vec<MuellerRow>, MaterialError> {
     let work = Work::new(material, request)?;
-    let mut rows = vec![Vec::new(); work.rows];
+    let mut rows: Vec<Option<MuellerRow>> = (0..work.rows).map(|_| None).collect();
     for (number, group) in work.groups.iter().enumerate() {
         let means = work.means(group, control)?;
-        for (k, at) in group.rows.iter().enumerate() {
-            rows[at.row] = means.iter().map(|m| m[k]).collect();
+        for (k, At { row, angles, flags }) in group.rows.iter().enumerate() {
+            let matrices: Vec<Mueller> = means.iter().map(|m| m[k]).collect();
+            let finite = |m: &Mueller| m.to_row_major().iter().all(|x| x.is_finite());
+            if let Some(at) = matrices.iter().position(|m| !finite(m)) {
+                let [thetai, thetas, phis] = angles;
+                let nm = request.wavelengths[at];
+                let place = format!("thetai {thetai}, thetas {thetas}, phis {phis}, {nm} nm");
+                return Err(MaterialError::NotFinite(place));
+            }
+            let omega = work.probes[group.probes].omegas[k];
+            let done = MuellerRow { angles: *angles, omega, matrices, flags: *flags };
+            rows[*row] = Some(done);
         }
         control.report((number + 1) as f64 / work.groups.len() as f64);
     }
-    Ok(rows)
+    Ok(rows.into_iter().flatten().collect())
 }
 
 /// What colours the rows of one table.
@@ -420,7 +466,7 @@ fn check(request: &TableRequest) -> Result<(), MaterialError> {
         let problem = "a ring is an average over the azimuth: expected one node";
         return Err(MaterialError::request("phis", problem));
     }
-    let nodes = grid.thetai.len() as f64 * grid.thetas.len() as f64 * grid.phis.len() as f64;
+    let nodes = request.what.rows();
     if nodes > request.limits.steps as f64 {
         return Err(MaterialError::Limit(format!("the grid has {nodes:e} nodes")));
     }
@@ -456,6 +502,7 @@ fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, Materi
                 _ => admit(&probes, &patch, request)
                     .and_then(|()| probes.add(center, &patch, &request.sampling).map_err(error))?,
             }
+            within(&probes, request)?;
             nodes.push((*thetas, *phis));
         }
     }
@@ -477,14 +524,16 @@ fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, Materi
 
 fn list_work(list: &[Place], request: &TableRequest) -> Result<Parts, MaterialError> {
     let (mut probes, mut groups): (Vec<Probes>, Vec<Group>) = Default::default();
+    let mut known: HashMap<u64, usize> = HashMap::new();
     for (row, place) in list.iter().enumerate() {
         let Place { thetai, thetas, phis, patch } = place;
         if !(0.0..=180.0).contains(thetai) || !thetas.is_finite() || !phis.is_finite() {
             let part = format!("patch {}", row + 1);
             return Err(MaterialError::request(part, "expected finite angles in degrees"));
         }
-        let known = groups.iter().position(|group| group.thetai == above(*thetai));
-        let at = known.unwrap_or_else(|| {
+        // Without the sign of a zero.
+        let bits = (above(*thetai) + 0.0).to_bits();
+        let at = *known.entry(bits).or_insert_with(|| {
             probes.push(Probes::default());
             groups.push(Group { thetai: above(*thetai), rows: Vec::new(), probes: groups.len() });
             groups.len() - 1
@@ -494,6 +543,7 @@ fn list_work(list: &[Place], request: &TableRequest) -> Result<Parts, MaterialEr
         probes[at]
             .add(center, patch, &request.sampling)
             .map_err(|error| MaterialError::Patch { number: row + 1, error })?;
+        within(&probes[at], request)?;
         let (angles, flags) = ([*thetai, *thetas, *phis], flags(*thetai, *thetas));
         groups[at].rows.push(At { row, angles, flags });
     }
@@ -509,12 +559,22 @@ fn admit(probes: &Probes, patch: &Patch, request: &TableRequest) -> Result<(), M
     };
     let more = sampling::Layout::estimate(&region, &request.sampling);
     if probes.directions() as f64 + more > request.limits.directions {
-        let limit = request.limits.directions;
-        return Err(MaterialError::Limit(format!(
-            "the patches have more than {limit:e} directions"
-        )));
+        return Err(too_many_directions(request));
     }
     Ok(())
+}
+
+/// Refuses to go on with more directions than the limit.
+fn within(probes: &Probes, request: &TableRequest) -> Result<(), MaterialError> {
+    if probes.directions() as f64 > request.limits.directions {
+        return Err(too_many_directions(request));
+    }
+    Ok(())
+}
+
+fn too_many_directions(request: &TableRequest) -> MaterialError {
+    let limit = request.limits.directions;
+    MaterialError::Limit(format!("the patches have more than {limit:e} directions"))
 }
 
 fn first_not_finite(row: &ColourRow, wavelengths: &[f64]) -> Option<f64> {
@@ -547,14 +607,6 @@ fn patch_name(what: &What) -> colour::Patch {
             Some(_) => colour::Patch::Other("mixed".into()),
             None => colour::Patch::Point,
         },
-    }
-}
-
-fn basis_name(basis: Basis) -> &'static str {
-    match basis {
-        Basis::Psps => "psps",
-        Basis::Xyxy => "xyxy",
-        Basis::Plane => "plane",
     }
 }
 

@@ -26,6 +26,15 @@ impl Basis {
             _ => None,
         }
     }
+
+    /// What programs call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Psps => "psps",
+            Self::Xyxy => "xyxy",
+            Self::Plane => "plane",
+        }
+    }
 }
 
 /// Two unit vectors across a beam; `first` takes the place of s, `second` that of p.

@@ -137,3 +137,13 @@ fn a_cancelled_table_and_one_beyond_its_limits_are_refused() {
     let refused = super::table(&material, &small, &Control::default());
     assert!(matches!(refused, Err(MaterialError::Limit(_))));
 }
+
+#[test]
+fn the_factor_of_a_diffuser_is_its_reflectance() {
+    let mut request = request(grid(GridPatch::Point));
+    request.settings.quantity = Quantity::Factor;
+    for row in run(GREY, &request).rows {
+        // Rounding of the adaptation of white.
+        assert!((row.xyz[0][1] - 0.5).abs() < 1e-12 && (row.spectra[0][0] - 0.5).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,46 @@
+//! What is kept of the steps of a run, so that a run that was interrupted goes on where it was.
+//!
+//! A step is kept as the values of its integrals: all that a replay cannot compute without the
+//! model. With them the texts, the spectra and the variables that are fed back come out again, to
+//! the last bit.
+
+use std::io;
+
+/// What the evaluation of one step gave.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Finished {
+    /// The values of the integrals, in the order of the program.
+    pub values: Vec<f64>,
+    /// The lines of the samples file, if the program has one.
+    pub samples: String,
+}
+
+/// Keeps the steps of a run outside of the engine.
+pub trait Journal {
+    /// What an earlier run of the same job kept of `step`; steps are asked for in order.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be read.
+    fn recall(&mut self, step: u64) -> io::Result<Option<Finished>>;
+
+    /// Keeps the steps from `first` on.
+    ///
+    /// # Errors
+    ///
+    /// If they cannot be kept; the run ends.
+    fn keep(&mut self, first: u64, steps: &[Finished]) -> io::Result<()>;
+}
+
+/// Remembers nothing.
+pub(crate) struct Forgetful;
+
+impl Journal for Forgetful {
+    fn recall(&mut self, _: u64) -> io::Result<Option<Finished>> {
+        Ok(None)
+    }
+
+    fn keep(&mut self, _: u64, _: &[Finished]) -> io::Result<()> {
+        Ok(())
+    }
+}
