@@ -4,6 +4,7 @@ mod header;
 mod json;
 mod mspd;
 mod mtab;
+mod mueller;
 mod plot;
 mod rows;
 
@@ -11,6 +12,8 @@ pub use json::json;
 pub use mspd::{component_name, mspd};
 pub use mtab::mtab;
 pub use plot::{plot, plot_comparisons};
+pub use mueller::{mueller, mueller_json, spectra_json};
+pub use plot::plot;
 
 pub(crate) use header::MAGIC;
 pub(crate) use rows::checksum;
