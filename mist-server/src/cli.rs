@@ -12,6 +12,7 @@ mod eval;
 mod export;
 mod fit;
 mod fmt;
+mod key;
 mod material;
 mod models;
 mod run;
@@ -64,7 +65,8 @@ enum Command {
     CompareSpectra(compare_spectra::Args),
     Fit(Box<fit::Args>),
     Tolerance(tolerance::Args),
-    Serve(serve::Args),
+    Serve(Box<serve::Args>),
+    Key(key::Args),
 }
 
 /// Runs the command that the arguments of the process name.
@@ -85,6 +87,7 @@ pub fn main() -> ExitCode {
         Command::Bridge(args) => bridge::bridge(&args),
         Command::Eval(args) => eval::eval(&args),
         Command::Serve(args) => serve::serve(&args),
+        Command::Key(args) => key::key(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -7,11 +7,18 @@ mod cli;
 mod compute;
 mod disk;
 mod interrupt;
+mod jobs;
+mod keys;
+mod limits;
 mod products;
 mod progress;
+mod registry;
 mod report;
+mod results;
+mod store;
 mod wanted;
 
 pub mod http;
 
 pub use cli::main;
+pub use limits::ServeLimits;

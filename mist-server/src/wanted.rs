@@ -41,12 +41,29 @@ impl Wanted {
         name: &str,
         files: Option<&dyn Files>,
     ) -> Result<TableRequest, MaterialError> {
+        Ok(TableRequest { what: self.what()?, ..self.somewhere(name, files)? })
+    }
+
+    /// The request for a table of no directions.
+    ///
+    /// # Errors
+    ///
+    /// As [`Wanted::request`].
+    pub(crate) fn without_directions(&self, name: &str) -> Result<TableRequest, MaterialError> {
+        self.somewhere(name, None)
+    }
+
+    fn somewhere(
+        &self,
+        name: &str,
+        files: Option<&dyn Files>,
+    ) -> Result<TableRequest, MaterialError> {
         let text = |given: &Option<String>, default: &str| {
             given.clone().unwrap_or_else(|| default.to_owned())
         };
         Ok(TableRequest {
             material: name.to_owned(),
-            what: self.what()?,
+            what: What::List(Vec::new()),
             wavelengths: query::nodes("lambda", &text(&self.lambda, "360:5:830"))?,
             settings: self.colours.settings(files)?,
             incident: query::stokes(&text(&self.incident, "1,0,0,0"))?,

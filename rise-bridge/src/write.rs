@@ -11,9 +11,8 @@ mod rows;
 pub use json::json;
 pub use mspd::{component_name, mspd};
 pub use mtab::mtab;
-pub use plot::{plot, plot_comparisons};
 pub use mueller::{mueller, mueller_json, spectra_json};
-pub use plot::plot;
+pub use plot::{plot, plot_comparisons};
 
 pub(crate) use header::MAGIC;
 pub(crate) use rows::checksum;

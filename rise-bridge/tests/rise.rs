@@ -70,7 +70,7 @@ fn tables_are_read_back_and_are_nists_integrals_over_rings() {
     };
     let rows = mueller(&gold, &request, &Control::default()).unwrap();
     for (at, (row, rgb)) in rows.iter().zip(&table.rgb).enumerate() {
-        for (m, value) in row.iter().zip(rgb) {
+        for (m, value) in row.matrices.iter().zip(rgb) {
             let exact = m[(0, 0)];
             // The same directions; the program goes through texts with 16 digits.
             assert!((value - exact).abs() <= 1e-6 * exact + 1e-12, "{at}: {value} {exact}");

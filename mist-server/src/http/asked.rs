@@ -1,39 +1,70 @@
 //! What the query of a URL asks for; angles in degrees, wavelengths in nm.
 
-use axum::extract::{FromRequestParts, Query};
-use axum::http::request::Parts;
-use mist_engine::material::query::ColourNames;
+use axum::{
+    extract::{FromRequestParts, Query},
+    http::request::Parts,
+};
+use mist_engine::material::{lobes::View, query::ColourNames, table::TableRequest};
 use rise_bridge::write::Style;
 use serde::Deserialize;
+use utoipa::IntoParams;
 
-use super::error::ApiError;
-use crate::wanted::Wanted;
+use super::{
+    error::{ApiError, Limit},
+    renderer,
+};
+use crate::{limits::ServeLimits, wanted::Wanted};
 
 /// The keys of a query; all have defaults but the directions.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
 pub(super) struct Asked {
+    /// Nodes of the grid in degrees: `0:2:90`, or a list with commas.
     thetai: Option<String>,
+    /// As `thetai`.
     thetas: Option<String>,
+    /// As `thetai`; 0 is the specular side.
     phis: Option<String>,
-    /// The solid angle of a grid's nodes.
+    /// The solid angle of a grid's nodes: `point`, `cell`, `ring` or `circle:ALPHA`.
     patch: Option<String>,
     /// Rows `thetai thetas phis circle 2`, separated by `;`, in the place of a grid.
     patches: Option<String>,
+    /// Wavelengths in nm: `360:5:830`.
     lambda: Option<String>,
+    /// CIE name, colour temperature, or `D(temperature)`: `D65`.
     illuminant: Option<String>,
+    /// Colour-matching functions: `CIE1931_2`.
     observer: Option<String>,
+    /// RGB space: `sRGB`.
     space: Option<String>,
+    /// `none`, `Bradford`, `CAT02`, `CAT16` or `VonKries`.
     adaptation: Option<String>,
+    /// `brdf` or `factor`.
     quantity: Option<String>,
+    /// A filter before the eye: `linear(1.57)`.
     filter: Option<String>,
+    /// Incident Stokes vector: `1,0,0,0`.
     incident: Option<String>,
+    /// `psps`, `xyxy` or `plane`; for single directions also `mitsuba`.
     basis: Option<String>,
+    /// 1 gives Q, U and V too.
+    #[param(minimum = 0, maximum = 1)]
     stokes: u8,
+    /// Significant digits: 9 bring back every f32, 17 every f64.
+    #[param(minimum = 1, maximum = 17)]
     digits: Option<usize>,
+    /// 1 gives X, Y and Z too.
+    #[param(minimum = 0, maximum = 1)]
     xyz: u8,
     /// Which Stokes component of the spectra: 0 … 3 for I, Q, U, V.
+    #[param(minimum = 0, maximum = 3)]
     component: usize,
+    /// `rgb`, `spectral` or `mueller`.
+    out: Option<String>,
+    /// Seconds to wait for a table before 202.
+    #[param(minimum = 0, maximum = 3600)]
+    wait: Option<f64>,
 }
 
 impl<S: Send + Sync> FromRequestParts<S> for Asked {
@@ -43,11 +74,18 @@ impl<S: Send + Sync> FromRequestParts<S> for Asked {
         let Query(asked) = Query::<Self>::from_request_parts(parts, state)
             .await
             .map_err(|error| ApiError::Query(error.body_text()))?;
+        let refuse = |text: &str| Err(ApiError::Query(text.into()));
         if asked.digits.is_some_and(|digits| !(1..=17).contains(&digits)) {
-            return Err(ApiError::Query("digits is from 1 to 17".into()));
+            return refuse("digits is from 1 to 17");
         }
         if asked.component > 3 {
-            return Err(ApiError::Query("component is 0, 1, 2 or 3 for I, Q, U, V".into()));
+            return refuse("component is 0, 1, 2 or 3 for I, Q, U, V");
+        }
+        if asked.stokes > 1 || asked.xyz > 1 {
+            return refuse("stokes and xyz are 0 or 1");
+        }
+        if asked.wait.is_some_and(|wait| !(0.0..=3600.0).contains(&wait)) {
+            return refuse("wait is from 0 to 3600 seconds");
         }
         Ok(asked)
     }
@@ -63,6 +101,21 @@ impl Asked {
     /// The Stokes component whose spectra are wanted.
     pub(super) fn component(&self) -> usize {
         self.component
+    }
+
+    /// What of the exit light is wanted.
+    pub(super) fn out(&self) -> Option<&str> {
+        self.out.as_deref()
+    }
+
+    /// Seconds to wait, if the query says so.
+    pub(super) fn wait(&self) -> Option<f64> {
+        self.wait
+    }
+
+    /// All that the answer depends on, as text.
+    pub(super) fn key(&self) -> String {
+        format!("{:?}", Self { wait: None, out: None, ..self.clone() })
     }
 
     /// The table of the grid or of the patches in the query.
@@ -87,6 +140,19 @@ impl Asked {
         Wanted { patches: Some(rows), ..self.everything_but_directions() }
     }
 
+    /// The same for single directions.
+    pub(super) fn view(&self, limits: &ServeLimits) -> Result<View, ApiError> {
+        let mut wanted = self.everything_but_directions();
+        let turn = renderer::turn(wanted.basis.as_deref());
+        if turn.is_some() {
+            wanted.basis = None;
+        }
+        let request = wanted.without_directions("")?;
+        admit(&request, limits)?;
+        let TableRequest { wavelengths, settings, incident, basis, .. } = request;
+        Ok(View { wavelengths, settings, incident, basis, turn })
+    }
+
     fn everything_but_directions(&self) -> Wanted {
         Wanted {
             grid: None,
@@ -106,4 +172,28 @@ impl Asked {
             },
         }
     }
+}
+
+/// Refuses a table that is larger than the service makes, before anything is computed; the
+/// request gets the limits of the service.
+pub(super) fn admit(request: &TableRequest, limits: &ServeLimits) -> Result<(), ApiError> {
+    let (rows, waves) = (request.what.rows(), request.wavelengths.len());
+    let numbers = rows * waves as f64 * if request.stokes { 4.0 } else { 1.0 };
+    let refuse = |flag, value, message| Err(ApiError::Limit(Limit { flag, value, message }));
+    if waves > limits.max_wavelengths {
+        let most = limits.max_wavelengths;
+        let message = format!("lambda has {waves} wavelengths, more than {most}");
+        return refuse("max-wavelengths", most as f64, message);
+    }
+    if rows > limits.max_steps as f64 {
+        let most = limits.max_steps;
+        let message = format!("the table has {rows:e} rows, more than {most}");
+        return refuse("max-steps", most as f64, message);
+    }
+    if numbers > limits.max_numbers {
+        let most = limits.max_numbers;
+        let message = format!("the table has {numbers:e} numbers, more than {most:e}");
+        return refuse("max-numbers", most, message);
+    }
+    Ok(())
 }

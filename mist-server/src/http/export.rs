@@ -31,7 +31,8 @@ use super::{
     App,
     error::ApiError,
     materials::Kept,
-    table::{Leash, is_known, tag_of},
+    run::Leash,
+    table::{is_known, tag_of},
 };
 
 /// Largest answer, bytes: it is made in memory.
@@ -101,8 +102,8 @@ async fn answer(
         return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
     }
     let leash = Leash::default();
-    let control = Control { cancel: leash.flag(), progress: None };
-    let bytes = app.compute.run(move || make(&name, &kept, &asked, &control)).await?;
+    let control = Control { cancel: leash.0.clone(), progress: None };
+    let bytes = app.compute_in_time(move || make(&name, &kept, &asked, &control)).await?;
     let bytes = bytes.map_err(refused)?;
     let head = [(header::CONTENT_TYPE, "application/octet-stream".to_owned()), (header::ETAG, tag)];
     Ok((head, bytes).into_response())

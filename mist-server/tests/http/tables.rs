@@ -1,35 +1,12 @@
-//! The service, asked without a socket.
+//! Materials go in, tables come out.
 
-use axum::{
-    body::{Body, to_bytes},
-    http::{Method, Request, StatusCode, header},
-};
-use mist_server::http::{App, router};
-use tower::ServiceExt;
+use axum::http::{Method, StatusCode};
+use mist_server::http::App;
 
-const GLASS: &str =
-    r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","sdf.s":0.3}}"#;
+use crate::ask::{GLASS, ask};
+
 const TABLE: &str =
     "/v1/materials/glass/table.mtab?thetai=0:30:60&thetas=0:30:60&phis=0:90:180&lambda=400:50:700";
-
-struct Answer {
-    status: StatusCode,
-    tag: Option<String>,
-    text: String,
-}
-
-async fn ask(app: &App, method: Method, uri: &str, tag: Option<&str>, body: &str) -> Answer {
-    let mut request = Request::builder().method(method).uri(uri);
-    if let Some(tag) = tag {
-        request = request.header(header::IF_NONE_MATCH, tag);
-    }
-    let request = request.body(Body::from(body.to_owned())).unwrap();
-    let response = router(app.clone()).oneshot(request).await.unwrap();
-    let tag = response.headers().get(header::ETAG).map(|t| t.to_str().unwrap().to_owned());
-    let status = response.status();
-    let bytes = to_bytes(response.into_body(), 1 << 24).await.unwrap();
-    Answer { status, tag, text: String::from_utf8(bytes.to_vec()).unwrap() }
-}
 
 #[tokio::test]
 async fn a_material_goes_in_and_its_table_comes_out() {
@@ -127,4 +104,37 @@ async fn wrong_requests_are_told_what_is_wrong() {
         assert_eq!(answer.status.as_u16(), status, "{uri}: {}", answer.text);
         assert!(answer.text.contains(word), "{uri}: {}", answer.text);
     }
+}
+
+#[tokio::test]
+async fn a_table_that_takes_longer_than_the_client_waits_is_promised_and_then_there() {
+    let app = App::default();
+    ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
+    let uri =
+        "/v1/materials/glass/table.mtab?thetai=0:5:80&thetas=0:2:80&phis=0:5:180&lambda=400:20:700";
+    let promised = ask(&app, Method::GET, &format!("{uri}&wait=0"), None, "").await;
+    assert_eq!(promised.status, StatusCode::ACCEPTED, "{}", promised.text);
+    let location = promised.headers["location"].to_str().unwrap().to_owned();
+    assert!(promised.headers.contains_key("retry-after"));
+    let there = ask(&app, Method::GET, &location.replace("wait=0", "wait=60"), None, "").await;
+    assert_eq!(there.status, StatusCode::OK, "{}", there.text);
+    let again = ask(&app, Method::GET, uri, there.tag.as_deref(), "").await;
+    assert_eq!(again.status, StatusCode::NOT_MODIFIED);
+}
+
+#[tokio::test]
+async fn all_who_ask_at_the_same_time_get_the_table_that_was_computed_once() {
+    let app = App::default();
+    ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
+    let asks = (0..8).map(|_| {
+        let app = app.clone();
+        tokio::spawn(async move { ask(&app, Method::GET, TABLE, None, "").await.text })
+    });
+    let mut texts = Vec::new();
+    for one in asks.collect::<Vec<_>>() {
+        texts.push(one.await.unwrap());
+    }
+    assert!(texts.iter().all(|text| *text == texts[0] && text.starts_with("# MIST-TABLE 1")));
+    let metrics = ask(&app, Method::GET, "/metrics", None, "").await.text;
+    assert!(metrics.contains("mist_tables_shared_total 7"), "{metrics}");
 }

@@ -1,0 +1,152 @@
+//! Single geometries: angles as JSON, or the vectors of a renderer as bytes.
+
+use std::sync::Arc;
+
+use axum::{
+    Json,
+    extract::State,
+    http::header,
+    response::{IntoResponse, Response},
+};
+use glam::DVec3;
+use mist_engine::material::{
+    eval,
+    lobes::{Lobes, Out},
+};
+use scattering::Mode;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use super::{
+    App,
+    asked::Asked,
+    error::{ApiError, Limit},
+    extract::{Body, Path, Query, Text},
+    materials::Kept,
+    problem::Problems,
+    schema,
+};
+
+/// Bytes of a pair of vectors: six f32.
+const PAIR: usize = 24;
+/// Evaluations that are done at once, on the thread that answers: some hundred microseconds.
+const AT_ONCE: usize = 1024;
+
+/// How `mist eval` is asked.
+#[derive(Default, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
+pub(super) struct How {
+    /// Give NIST's numbers, its defects included.
+    compat: bool,
+}
+
+/// Mueller matrices of a model in given directions, as `mist eval` gives them.
+#[utoipa::path(
+    post,
+    path = "/v1/evaluate",
+    tag = "evaluate",
+    params(How),
+    request_body = schema::EvalRequest,
+    responses((status = 200, description = "One matrix per geometry, 1/sr", body = schema::EvalAnswer), Problems),
+)]
+pub(super) async fn angles(
+    State(app): State<App>,
+    Query(how): Query<How>,
+    Text(body): Text,
+) -> Result<Response, ApiError> {
+    let mode = if how.compat { Mode::Compat } else { Mode::Sound };
+    let work = move || eval::eval(&body, mode, None);
+    let response = app.compute_in_time(work).await??;
+    Ok(Json(response).into_response())
+}
+
+/// Values of a material for pairs of vectors: f32 little-endian `[n][6]` (to the source, to the
+/// viewer; z is the normal, x the fiducial axis) in, f32 `[n][3 | wavelengths | 16 wavelengths]`
+/// out, in 1/sr and without the cosine.
+#[utoipa::path(
+    post,
+    path = "/v1/materials/{name}/evaluate",
+    tag = "materials",
+    params(schema::Name, Asked),
+    request_body(content = Vec<u8>, content_type = "application/octet-stream"),
+    responses(
+        (status = 200, description = "The numbers", body = Vec<u8>, content_type = "application/octet-stream"),
+        Problems,
+    ),
+)]
+pub(super) async fn vectors(
+    State(app): State<App>,
+    Path(name): Path<String>,
+    asked: Asked,
+    Body(body): Body,
+) -> Result<Response, ApiError> {
+    let out = Out::parse(asked.out().unwrap_or("rgb"))?;
+    let pairs = pairs(&body)?;
+    let kept = app.materials.find(&name)?;
+    let lobes = lobes(&app, kept, &asked).await?;
+    lobes.check(out)?;
+    admit(&app, &lobes, pairs.len(), out)?;
+    let evaluations = pairs.len() * lobes.wavelengths();
+    app.metrics.count_evaluations(evaluations);
+    let answer = if evaluations <= AT_ONCE {
+        lobes.evaluate(&pairs, out)
+    } else {
+        app.compute_in_time(move || in_parallel(&lobes, &pairs, out)).await?
+    };
+    let bytes: Vec<u8> = answer.iter().flat_map(|x| x.to_le_bytes()).collect();
+    Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
+}
+
+/// The vectors in a body.
+fn pairs(body: &[u8]) -> Result<Vec<(DVec3, DVec3)>, ApiError> {
+    if !body.len().is_multiple_of(PAIR) {
+        let message = format!(
+            "the body has {} bytes; expected 24 for each pair: six f32, little-endian",
+            body.len()
+        );
+        return Err(ApiError::Body(message));
+    }
+    let vector = |bytes: &[u8]| {
+        let x = |k: usize| {
+            let bytes = [bytes[k], bytes[k + 1], bytes[k + 2], bytes[k + 3]];
+            f64::from(f32::from_le_bytes(bytes))
+        };
+        DVec3::new(x(0), x(4), x(8))
+    };
+    Ok(body.chunks_exact(PAIR).map(|pair| (vector(&pair[..12]), vector(&pair[12..]))).collect())
+}
+
+/// The material at the wavelengths of the query, from the last asker or new.
+async fn lobes(app: &App, kept: Arc<Kept>, asked: &Asked) -> Result<Arc<Lobes>, ApiError> {
+    let key = format!("{} {}", kept.hash, asked.key());
+    if let Some(found) = app.lobes.get(&key) {
+        return Ok(found);
+    }
+    let view = asked.view(&app.limits)?;
+    let made = app.compute_in_time(move || Lobes::new(&kept.prepared, &view)).await??;
+    Ok(app.lobes.keep(key, Arc::new(made)))
+}
+
+fn admit(app: &App, lobes: &Lobes, pairs: usize, out: Out) -> Result<(), ApiError> {
+    let (evaluations, numbers) = (pairs * lobes.wavelengths(), pairs * lobes.width(out));
+    let limits = &app.limits;
+    for (count, what, flag, value) in [
+        (evaluations, "evaluations", "max-evaluations", limits.max_evaluations),
+        (numbers, "numbers", "max-numbers", limits.max_numbers),
+    ] {
+        if count as f64 > value {
+            let message = format!("the answer needs {count} {what}, more than {value}");
+            return Err(ApiError::Limit(Limit { flag, value, message }));
+        }
+    }
+    Ok(())
+}
+
+/// Pieces of the work on all threads.
+fn in_parallel(lobes: &Lobes, pairs: &[(DVec3, DVec3)], out: Out) -> Vec<f32> {
+    use rayon::prelude::*;
+    let parts: Vec<Vec<f32>> =
+        pairs.par_chunks(AT_ONCE).map(|pairs| lobes.evaluate(pairs, out)).collect();
+    parts.concat()
+}

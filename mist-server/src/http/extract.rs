@@ -1,0 +1,133 @@
+//! What handlers take from a request; what cannot be taken is a problem like any other.
+
+use axum::{
+    body::Bytes,
+    extract::{FromRequest, FromRequestParts, Request},
+    http::{StatusCode, request::Parts},
+};
+use serde::de::DeserializeOwned;
+
+use super::{
+    App,
+    error::{ApiError, Limit},
+};
+use crate::disk::decode;
+
+/// The named parts of the address.
+pub(super) struct Path<T>(pub(super) T);
+
+impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for Path<T> {
+    type Rejection = ApiError;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ApiError> {
+        let found = axum::extract::Path::<T>::from_request_parts(parts, state).await;
+        found.map(|path| Self(path.0)).map_err(|error| ApiError::Query(error.body_text()))
+    }
+}
+
+/// The query of the address.
+pub(super) struct Query<T>(pub(super) T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
+    type Rejection = ApiError;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ApiError> {
+        let found = axum::extract::Query::<T>::from_request_parts(parts, state).await;
+        found.map(|query| Self(query.0)).map_err(|error| ApiError::Query(error.body_text()))
+    }
+}
+
+/// The bytes of the body.
+pub(super) struct Body(pub(super) Bytes);
+
+impl FromRequest<App> for Body {
+    type Rejection = ApiError;
+
+    async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
+        let most = app.limits.max_body;
+        let read = Bytes::from_request(request, app);
+        let read = tokio::time::timeout(app.limits.silence(), read).await;
+        match read.map_err(|_| ApiError::Slow)? {
+            Ok(bytes) => Ok(Self(bytes)),
+            Err(error) if error.status() == StatusCode::PAYLOAD_TOO_LARGE => {
+                Err(ApiError::TooLarge(Limit {
+                    flag: "max-body",
+                    value: most as f64,
+                    message: format!("the body has more than {most} bytes"),
+                }))
+            }
+            Err(error) => Err(ApiError::Body(error.body_text())),
+        }
+    }
+}
+
+/// The body as text: UTF-8, or else Latin-1, as data files are read.
+pub(super) struct Text(pub(super) String);
+
+impl FromRequest<App> for Text {
+    type Rejection = ApiError;
+
+    async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
+        let Body(bytes) = Body::from_request(request, app).await?;
+        Ok(Self(decode(bytes.into())))
+    }
+}
+
+/// The kinds of answer that the header `Accept` prefers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Accept {
+    /// Text, or anything.
+    Text,
+    /// `text/csv`.
+    Csv,
+    /// `application/json`.
+    Json,
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Accept {
+    type Rejection = ApiError;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, ApiError> {
+        let headers = parts.headers.get_all(axum::http::header::ACCEPT).iter();
+        let given: Vec<&str> = headers.filter_map(|value| value.to_str().ok()).collect();
+        Ok(preferred(&given.join(",")))
+    }
+}
+
+/// The kind with the highest quality, the first of equals.
+fn preferred(header: &str) -> Accept {
+    let mut best = (Accept::Text, 0.0);
+    for entry in header.split(',') {
+        let mut parts = entry.split(';').map(str::trim);
+        let kind = match parts.next().unwrap_or("") {
+            "application/json" | "application/*" => Accept::Json,
+            "text/csv" => Accept::Csv,
+            "text/plain" | "text/*" | "*/*" => Accept::Text,
+            _ => continue,
+        };
+        let quality = parts.find_map(|part| part.strip_prefix("q=")?.parse().ok()).unwrap_or(1.0);
+        if quality > best.1 {
+            best = (kind, quality);
+        }
+    }
+    best.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_liked_kind_wins_and_text_is_the_default() {
+        for (header, kind) in [
+            ("", Accept::Text),
+            ("*/*", Accept::Text),
+            ("application/json", Accept::Json),
+            ("text/csv;q=0.5, application/json;q=0.9", Accept::Json),
+            ("text/csv, */*;q=0.1", Accept::Csv),
+            ("image/png", Accept::Text),
+        ] {
+            assert_eq!(preferred(header), kind, "{header}");
+        }
+    }
+}

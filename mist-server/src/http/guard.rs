@@ -1,0 +1,96 @@
+//! What every request passes on its way: its number, its key, its place in the log.
+
+use std::{
+    net::IpAddr,
+    sync::atomic::{AtomicU64, Ordering},
+    time::Instant,
+};
+
+use axum::{
+    extract::{ConnectInfo, FromRequestParts, MatchedPath, Request, State},
+    http::{HeaderValue, Method, header, request::Parts},
+    middleware::Next,
+    response::{IntoResponse, Response},
+};
+
+use super::{App, error::ApiError, listen::Peer};
+use crate::keys::Scope;
+
+/// The header with the number of a request.
+const REQUEST_ID: &str = "x-request-id";
+/// Characters of a number that a client or a proxy gives.
+const LONGEST_ID: usize = 128;
+
+/// Who asks: the name of a key, or an address.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Client(pub(super) String);
+
+impl<S: Send + Sync> FromRequestParts<S> for Client {
+    type Rejection = ApiError;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, ApiError> {
+        let own = parts.extensions.get::<Self>().cloned();
+        Ok(own.unwrap_or_else(|| Self("unknown".into())))
+    }
+}
+
+/// Addresses that need no key: they tell whether the service is there, and what it can do.
+const OPEN: [&str; 5] = ["/healthz", "/readyz", "/openapi.json", "/docs", "/"];
+
+/// Checks the key, numbers the request, and tells the log how it ended.
+pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Next) -> Response {
+    let begun = Instant::now();
+    let id = request_id(&request);
+    let (method, path) = (request.method().clone(), request.uri().path().to_owned());
+    let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
+    let mut client = String::new();
+    let mut response = match admit(&app, &request) {
+        Ok(found) => {
+            client.clone_from(&found.0);
+            request.extensions_mut().insert(found);
+            next.run(request).await
+        }
+        Err(error) => error.into_response(),
+    };
+    let (status, seconds) = (response.status().as_u16(), begun.elapsed().as_secs_f64());
+    tracing::info!(id, %method, path, status, seconds, client, "answered");
+    app.metrics.count_request(&method, route.as_deref().unwrap_or("none"), status, seconds);
+    if let Ok(id) = HeaderValue::from_str(&id) {
+        response.headers_mut().insert(REQUEST_ID, id);
+    }
+    response
+}
+
+/// The number that the client or a proxy gave, or the next one.
+fn request_id(request: &Request) -> String {
+    static NEXT: AtomicU64 = AtomicU64::new(1);
+    let given = request.headers().get(REQUEST_ID).and_then(|id| id.to_str().ok());
+    match given.filter(|id| !id.is_empty() && id.len() <= LONGEST_ID) {
+        Some(id) => id.to_owned(),
+        None => NEXT.fetch_add(1, Ordering::Relaxed).to_string(),
+    }
+}
+
+/// Who asks, if they may.
+fn admit(app: &App, request: &Request) -> Result<Client, ApiError> {
+    let peer = request.extensions().get::<ConnectInfo<Peer>>().map(|info| info.0.0);
+    let address = peer.map_or_else(|| "local".to_owned(), |ip: IpAddr| ip.to_string());
+    let Some(keys) = &app.keys else { return Ok(Client(address)) };
+    let path = request.uri().path();
+    if OPEN.contains(&path) || path.starts_with("/docs/") || path.starts_with("/page/") {
+        return Ok(Client(address));
+    }
+    let scope = match *request.method() {
+        Method::GET | Method::HEAD => Scope::Read,
+        _ => Scope::Run,
+    };
+    let given = request.headers().get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
+    let key = given.and_then(|value| value.split_once(' '));
+    let key = key.filter(|(scheme, _)| scheme.eq_ignore_ascii_case("bearer"));
+    let (_, key) = key.ok_or(ApiError::Key)?;
+    match keys.check(key.trim(), scope) {
+        Some((name, true)) => Ok(Client(name.to_owned())),
+        Some((_, false)) => Err(ApiError::Scope(scope.name())),
+        None => Err(ApiError::Key),
+    }
+}

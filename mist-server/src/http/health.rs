@@ -1,0 +1,31 @@
+//! Whether the service is there, and whether it should be sent work.
+
+use axum::extract::State;
+
+use super::{App, error::ApiError, problem::Problems};
+
+/// Whether the process answers.
+#[utoipa::path(
+    get,
+    path = "/healthz",
+    tag = "service",
+    responses((status = 200, description = "It does", body = String), Problems),
+)]
+pub(super) async fn healthz() -> &'static str {
+    "ok\n"
+}
+
+/// Whether the service takes work: it is not stopping, and what it keeps can be read.
+#[utoipa::path(
+    get,
+    path = "/readyz",
+    tag = "service",
+    responses((status = 200, description = "It does", body = String), Problems),
+)]
+pub(super) async fn readyz(State(app): State<App>) -> Result<&'static str, ApiError> {
+    if app.jobs.is_stopping() {
+        return Err(ApiError::Unavailable("the service is stopping".into()));
+    }
+    app.store(|store| store.text("", "")).await?;
+    Ok("ready\n")
+}

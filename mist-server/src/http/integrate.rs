@@ -1,0 +1,166 @@
+//! Integrals over the solid angles that a renderer names.
+
+use axum::{
+    extract::State,
+    http::header,
+    response::{IntoResponse, Response},
+};
+use mist_engine::{
+    Control,
+    material::{
+        MaterialError,
+        lobes::Out,
+        table::{self, TableRequest},
+    },
+};
+use rise_bridge::write;
+use serde::Deserialize;
+use utoipa::ToSchema;
+
+use super::{
+    App,
+    asked::{Asked, admit},
+    error::ApiError,
+    extract::{Accept, Path, Text},
+    materials::Kept,
+    problem::Problems,
+    run::Leash,
+    schema,
+};
+use crate::products::Product;
+
+/// Solid angles as JSON.
+#[derive(Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Patches {
+    /// In the order of the answer.
+    patches: Vec<PatchBody>,
+}
+
+/// One solid angle, degrees.
+#[derive(Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PatchBody {
+    /// Polar angle of incidence.
+    #[schema(example = 45.0)]
+    thetai: f64,
+    /// Polar angle of the centre.
+    #[schema(example = 45.0)]
+    thetas: f64,
+    /// Azimuth of the centre; 0 is the specular side.
+    #[schema(example = 0.0)]
+    phis: f64,
+    /// Half-angle of a cone.
+    #[schema(example = 2.0)]
+    circle: Option<f64>,
+    /// Half-angles of the two cones between which light is collected.
+    ring: Option<[f64; 2]>,
+    /// Corners (polar angle, azimuth).
+    polygon: Option<Vec<[f64; 2]>>,
+}
+
+impl PatchBody {
+    /// The row that says the same as text.
+    fn row(&self, number: usize) -> Result<String, ApiError> {
+        let Self { thetai, thetas, phis, circle, ring, polygon } = self;
+        let shape = match (circle, ring, polygon) {
+            (None, None, None) => "point".to_owned(),
+            (Some(alpha), None, None) => format!("circle {alpha}"),
+            (None, Some([inner, outer]), None) => format!("ring {inner} {outer}"),
+            (None, None, Some(corners)) => {
+                let corners: Vec<String> =
+                    corners.iter().map(|[theta, phi]| format!("{theta} {phi}")).collect();
+                format!("polygon {}", corners.join(" "))
+            }
+            _ => {
+                let message = "expected one of circle, ring and polygon, or none for a point";
+                return Err(ApiError::Body(format!("patch {number}: {message}")));
+            }
+        };
+        Ok(format!("{thetai} {thetas} {phis} {shape}"))
+    }
+}
+
+/// The rows of a body, one per line.
+fn rows(body: String) -> Result<String, ApiError> {
+    if !body.trim_start().starts_with('{') {
+        return Ok(body);
+    }
+    let Patches { patches } = serde_json::from_str(&body)
+        .map_err(|error| ApiError::Body(format!("not a list of patches: {error}")))?;
+    let rows: Result<Vec<String>, ApiError> =
+        patches.iter().enumerate().map(|(at, patch)| patch.row(at + 1)).collect();
+    Ok(rows?.join("\n"))
+}
+
+/// Means over solid angles: rows `thetai thetas phis circle 2`, `… ring 10 12`, `… polygon t p t
+/// p …` in degrees, or the same as JSON. The rows of the answer have the order of the request.
+#[utoipa::path(
+    post,
+    path = "/v1/materials/{name}/integrate",
+    tag = "materials",
+    params(schema::Name, Asked),
+    request_body(content((String = "text/plain"), (Patches = "application/json"))),
+    responses(
+        (status = 200, description = "A table of colours, spectra or Mueller matrices", content(
+            (String = "text/plain"), (serde_json::Value = "application/json"),
+        )),
+        Problems,
+    ),
+)]
+pub(super) async fn integrate(
+    State(app): State<App>,
+    Path(name): Path<String>,
+    asked: Asked,
+    accept: Accept,
+    Text(body): Text,
+) -> Result<Response, ApiError> {
+    let out = Out::parse(asked.out().unwrap_or("rgb"))?;
+    let kept = app.materials.find(&name)?;
+    let mut request = asked.wanted_at(rows(body)?).request(&name, None)?;
+    admit(&request, &app.limits)?;
+    request.limits = app.limits.engine(app.limits.max_time);
+    request.stokes |= asked.component() > 0;
+    let json = accept == Accept::Json;
+    let leash = Leash::default();
+    let control = Control { cancel: leash.0.clone(), progress: None };
+    let work = move || answer(&kept, &request, &asked, &control, (out, json));
+    let text = app.compute_in_time(work).await??;
+    let kind = if json { "application/json" } else { "text/plain; charset=utf-8" };
+    Ok(([(header::CONTENT_TYPE, kind)], text).into_response())
+}
+
+/// The text of the answer.
+fn answer(
+    kept: &Kept,
+    request: &TableRequest,
+    asked: &Asked,
+    control: &Control,
+    (out, json): (Out, bool),
+) -> Result<String, ApiError> {
+    let style = asked.style();
+    let text = match (out, json) {
+        (Out::Mueller, _) => {
+            let rows = table::mueller(&kept.prepared, request, control)?;
+            if json {
+                write::mueller_json(request, &rows)
+            } else {
+                write::mueller(request, &rows, style)
+            }
+        }
+        (Out::Spectral, _) => {
+            let table = table::table(&kept.prepared, request, control)?;
+            if json {
+                write::spectra_json(&table, asked.component())
+            } else {
+                write::mspd(&table, asked.component(), style)
+            }
+        }
+        (Out::Rgb, json) => {
+            let table = table::table(&kept.prepared, request, control)?;
+            let product = if json { Product::Json } else { Product::Table };
+            product.text(&table, asked.component(), style)
+        }
+    };
+    text.map_err(|error| MaterialError::NotFinite(error.to_string()).into())
+}

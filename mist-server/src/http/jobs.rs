@@ -1,0 +1,281 @@
+//! Programs that run in the background.
+
+use std::{convert::Infallible, sync::Arc};
+
+use axum::{
+    Json,
+    extract::State,
+    http::{HeaderValue, StatusCode, header},
+    response::{
+        IntoResponse, Response, Sse,
+        sse::{Event, KeepAlive},
+    },
+};
+use futures_util::{Stream, stream};
+use serde::{Deserialize, Serialize};
+use utoipa::{IntoParams, ToSchema};
+
+use super::{
+    App,
+    error::ApiError,
+    extract::{Accept, Path, Query},
+    guard::Client,
+    problem::Problems,
+    program::ProgramBody,
+    run::answer,
+};
+use crate::jobs::{Job, State as JobState, Status};
+
+/// An accepted job.
+#[derive(Serialize, ToSchema)]
+pub(super) struct Accepted {
+    /// Its name in addresses.
+    id: String,
+}
+
+/// A job.
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+#[expect(dead_code, reason = "describes the API")]
+pub(super) struct JobId {
+    /// The id of the job.
+    id: String,
+}
+
+/// How results are wanted.
+#[derive(Default, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
+pub(super) struct HowResults {
+    /// Give the rows of a running job as far as they are.
+    partial: bool,
+}
+
+/// Which form of a colour table is wanted.
+#[derive(Default, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields, default)]
+#[into_params(parameter_in = Query)]
+pub(super) struct HowTable {
+    /// `mtab`, `mspd`, `json` or `svg`.
+    format: Option<String>,
+}
+
+/// Run a program in the background; the body is that of `/v1/run`.
+#[utoipa::path(
+    post,
+    path = "/v1/jobs",
+    tag = "jobs",
+    request_body(content(
+        (ProgramBody = "application/json"), (String = "text/plain"), (ProgramBody = "multipart/form-data"),
+    )),
+    responses(
+        (status = 202, description = "It is kept and will run", body = Accepted,
+            headers(("Location" = String))),
+        Problems,
+    ),
+)]
+pub(super) async fn submit(
+    State(app): State<App>,
+    client: Client,
+    body: ProgramBody,
+) -> Result<Response, ApiError> {
+    // What is wrong with a program is told now rather than later.
+    let limits = app.limits.clone();
+    let body = app
+        .compute_in_time(move || -> Result<ProgramBody, ApiError> {
+            let options = body.options(limits.engine(limits.max_job_time));
+            mist_engine::compile(&body.program, body.files(), &options).map_err(|found| {
+                ApiError::of_program(&body.program, mist_engine::Failure::Program(found))
+            })?;
+            Ok(body)
+        })
+        .await??;
+    let status = app.blocking(move |app| app.jobs.submit(body, client.0)).await?;
+    let location = HeaderValue::from_str(&format!("/v1/jobs/{}", status.id));
+    let location = location.map_err(|error| ApiError::Failed(error.to_string()))?;
+    let accepted = Json(Accepted { id: status.id });
+    Ok((StatusCode::ACCEPTED, [(header::LOCATION, location)], accepted).into_response())
+}
+
+/// Every job that is kept, the oldest first.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs",
+    tag = "jobs",
+    responses((status = 200, description = "Where they stand", body = Vec<Status>), Problems),
+)]
+pub(super) async fn list(State(app): State<App>) -> Json<Vec<Status>> {
+    Json(app.jobs.list())
+}
+
+/// Where a job stands.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}",
+    tag = "jobs",
+    params(JobId),
+    responses((status = 200, description = "Where it stands", body = Status), Problems),
+)]
+pub(super) async fn get(
+    State(app): State<App>,
+    Path(id): Path<String>,
+) -> Result<Json<Status>, ApiError> {
+    Ok(Json(app.jobs.find(&id)?.status()))
+}
+
+/// Cancel a job that waits or runs; forget one that is over.
+#[utoipa::path(
+    delete,
+    path = "/v1/jobs/{id}",
+    tag = "jobs",
+    params(JobId),
+    responses(
+        (status = 200, description = "It was over and is forgotten, or it is cancelled", body = Status),
+        (status = 202, description = "It will stop soon", body = Status),
+        Problems,
+    ),
+)]
+pub(super) async fn cancel(
+    State(app): State<App>,
+    Path(id): Path<String>,
+) -> Result<(StatusCode, Json<Status>), ApiError> {
+    let job = app.jobs.find(&id)?;
+    let status = app.blocking(move |app| app.jobs.cancel(&job)).await?;
+    let code = if status.state.is_over() { StatusCode::OK } else { StatusCode::ACCEPTED };
+    Ok((code, Json(status)))
+}
+
+/// Where a job stands, and every change until it is over, as server-sent events `status`.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/events",
+    tag = "jobs",
+    params(JobId),
+    responses(
+        (status = 200, description = "Events", body = String, content_type = "text/event-stream"),
+        Problems,
+    ),
+)]
+pub(super) async fn events(
+    State(app): State<App>,
+    Path(id): Path<String>,
+) -> Result<Sse<impl Stream<Item = Result<Event, Infallible>>>, ApiError> {
+    let mut changes = app.jobs.find(&id)?.watch();
+    // The first event tells where the job stands now.
+    changes.mark_changed();
+    let stream = stream::unfold(Some(changes), async |changes| {
+        let mut changes = changes?;
+        changes.changed().await.ok()?;
+        let status = changes.borrow_and_update().clone();
+        let event = Event::default().event("status").json_data(&status).unwrap_or_default();
+        let rest = (!status.state.is_over()).then_some(changes);
+        Some((Ok(event), rest))
+    });
+    Ok(Sse::new(stream).keep_alive(KeepAlive::default()))
+}
+
+/// The results of a finished job: text as the program writes it, CSV, or JSON.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/results",
+    tag = "jobs",
+    params(JobId, HowResults),
+    responses(
+        (status = 200, description = "The table", content(
+            (String = "text/plain"), (String = "text/csv"), (serde_json::Value = "application/json"),
+        )),
+        Problems,
+    ),
+)]
+pub(super) async fn results(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(how): Query<HowResults>,
+    accept: Accept,
+) -> Result<Response, ApiError> {
+    let job = app.jobs.find(&id)?;
+    let status = job.status();
+    let text = if how.partial && status.state == JobState::Running {
+        job.results_so_far()
+    } else {
+        text(&app, job, "results").await?
+    };
+    Ok(answer(text, status.header_lines, accept))
+}
+
+/// The listing of a finished job.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/listing",
+    tag = "jobs",
+    params(JobId),
+    responses((status = 200, description = "The listing", body = String), Problems),
+)]
+pub(super) async fn listing(
+    State(app): State<App>,
+    Path(id): Path<String>,
+) -> Result<String, ApiError> {
+    text(&app, app.jobs.find(&id)?, "listing").await
+}
+
+/// The samples of a finished job, if its program asks for them.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/samples",
+    tag = "jobs",
+    params(JobId),
+    responses((status = 200, description = "The samples", body = String), Problems),
+)]
+pub(super) async fn samples(
+    State(app): State<App>,
+    Path(id): Path<String>,
+) -> Result<String, ApiError> {
+    text(&app, app.jobs.find(&id)?, "samples").await
+}
+
+/// The colour table of a finished job, if its program has a section COLOR.
+#[utoipa::path(
+    get,
+    path = "/v1/jobs/{id}/table",
+    tag = "jobs",
+    params(JobId, HowTable),
+    responses(
+        (status = 200, description = "The table", content(
+            (String = "text/plain"), (serde_json::Value = "application/json"), (String = "image/svg+xml"),
+        )),
+        Problems,
+    ),
+)]
+pub(super) async fn table(
+    State(app): State<App>,
+    Path(id): Path<String>,
+    Query(how): Query<HowTable>,
+) -> Result<Response, ApiError> {
+    let (kind, content) = match how.format.as_deref().unwrap_or("mtab") {
+        "mtab" => ("table.mtab", "text/plain; charset=utf-8"),
+        "mspd" => ("table.mspd", "text/plain; charset=utf-8"),
+        "json" => ("table.json", "application/json"),
+        "svg" => ("table.svg", "image/svg+xml"),
+        other => {
+            let message = format!("format: {other:?} is none of mtab, mspd, json, svg");
+            return Err(ApiError::Query(message));
+        }
+    };
+    let text = text(&app, app.jobs.find(&id)?, kind).await?;
+    Ok(([(header::CONTENT_TYPE, content)], text).into_response())
+}
+
+/// A text of a job that is done.
+async fn text(app: &App, job: Arc<Job>, kind: &'static str) -> Result<String, ApiError> {
+    let status = job.status();
+    match status.state {
+        JobState::Done => {}
+        JobState::Failed => {
+            let why = status.problem.map_or_else(String::new, |problem| problem.message);
+            return Err(ApiError::Conflict(format!("the job failed: {why}")));
+        }
+        other => return Err(ApiError::Conflict(format!("the job is {}", other.name()))),
+    }
+    let found = app.blocking(move |app| Ok(app.jobs.text(&job, kind)?)).await?;
+    found.ok_or_else(|| ApiError::NotFound(format!("{kind} of this job")))
+}

@@ -1,0 +1,80 @@
+//! Connections: how many there are, how long they may be silent, and how they end.
+
+use std::{future::Future, io, net::IpAddr, pin::pin, sync::Arc, time::Duration};
+
+use axum::{Router, extract::ConnectInfo, http::Request};
+use hyper::{body::Incoming, server::conn::http1, service::service_fn};
+use hyper_util::{
+    rt::{TokioIo, TokioTimer},
+    server::graceful::GracefulShutdown,
+};
+use tokio::{net::TcpListener, sync::Semaphore};
+use tower::ServiceExt;
+
+use crate::limits::ServeLimits;
+
+/// How long answers that were begun may take when the service stops.
+const LAST_ANSWERS: Duration = Duration::from_secs(10);
+/// How long nobody is accepted after the system has no room for a connection.
+const NO_ROOM: Duration = Duration::from_millis(100);
+
+/// The address of the other end of a connection.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Peer(pub(super) IpAddr);
+
+/// Answers on `listener` until `stop` is there; then no more connections are accepted, and what
+/// was begun is answered.
+///
+/// # Errors
+///
+/// If the address of the listener cannot be used at all.
+pub async fn serve(
+    listener: TcpListener,
+    router: Router,
+    limits: &ServeLimits,
+    stop: impl Future<Output = ()>,
+) -> io::Result<()> {
+    let places = Arc::new(Semaphore::new(limits.max_connections.max(1)));
+    let connections = GracefulShutdown::new();
+    let mut http = http1::Builder::new();
+    http.timer(TokioTimer::new()).header_read_timeout(limits.silence());
+    let mut stop = pin!(stop);
+    loop {
+        let accept = async {
+            let place = places.clone().acquire_owned().await;
+            (place, listener.accept().await)
+        };
+        let (place, accepted) = tokio::select! {
+            accepted = accept => accepted,
+            () = &mut stop => break,
+        };
+        let (stream, address) = match accepted {
+            Ok(accepted) => accepted,
+            Err(error) => {
+                tracing::warn!(%error, "a connection was not accepted");
+                tokio::time::sleep(NO_ROOM).await;
+                continue;
+            }
+        };
+        // Answers are whole when they are written: nothing is gained by waiting for more.
+        let _ = stream.set_nodelay(true);
+        let (router, peer) = (router.clone(), ConnectInfo(Peer(address.ip())));
+        let service = service_fn(move |mut request: Request<Incoming>| {
+            request.extensions_mut().insert(peer);
+            router.clone().oneshot(request)
+        });
+        let connection = http.serve_connection(TokioIo::new(stream), service);
+        let connection = connections.watch(connection);
+        tokio::spawn(async move {
+            let _place = place;
+            if let Err(error) = connection.await {
+                tracing::debug!(%error, "a connection broke");
+            }
+        });
+    }
+    drop(listener);
+    if tokio::time::timeout(LAST_ANSWERS, connections.shutdown()).await.is_err() {
+        tracing::warn!("some answers were not finished in time");
+    }
+    Ok(())
+}

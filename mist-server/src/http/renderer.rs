@@ -1,0 +1,12 @@
+//! The axes in which renderers have their Stokes vectors.
+
+use mist_engine::material::lobes::Turn;
+use rise_bridge::mitsuba::frame;
+
+/// What takes a matrix in `psps` to the basis called `name`, if it is that of a renderer.
+pub(super) fn turn(name: Option<&str>) -> Option<Turn> {
+    match name {
+        Some("mitsuba") => Some(frame::from_psps),
+        _ => None,
+    }
+}

@@ -1,0 +1,106 @@
+//! The JSON of requests and answers that other crates define, as the API describes it.
+//!
+//! The types marked so are read by nobody: they are what `/openapi.json` says.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use utoipa::{IntoParams, ToSchema};
+
+use super::program::ProgramBody;
+
+/// The name of a material.
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Path)]
+#[expect(dead_code, reason = "describes the API")]
+pub(super) struct Name {
+    /// The name of the material.
+    name: String,
+}
+
+/// The content of a material.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Hash {
+    /// `sha256-…` of the body that brought it.
+    pub(super) hash: String,
+}
+
+/// A material in the list.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Listed {
+    /// Its name.
+    pub(super) name: String,
+    /// `sha256-…` of the body that brought it.
+    pub(super) hash: String,
+}
+
+/// A material: a model with parameters, or a program whose first step counts.
+#[derive(Deserialize, ToSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "describes the API")]
+pub(super) enum MaterialBody {
+    /// A model with the parameters that differ from its defaults.
+    Model(ModelBody),
+    /// A program with its data files.
+    Program(ProgramBody),
+}
+
+/// A model with the parameters that differ from its defaults.
+#[derive(Deserialize, ToSchema)]
+#[expect(dead_code, reason = "describes the API")]
+pub(super) struct ModelBody {
+    /// Name of the model's class.
+    #[schema(example = "Facet_BRDF_Model")]
+    model: String,
+    /// Dotted names with values, or a list of pairs.
+    #[schema(example = json!({"substrate": "(1.5,0)", "sdf.s": 0.3}))]
+    parameters: Option<Value>,
+    /// Texts of data files by the names that parameters give them.
+    files: Option<BTreeMap<String, String>>,
+}
+
+/// What `mist eval` reads.
+#[derive(Deserialize, ToSchema)]
+#[expect(dead_code, reason = "describes the API")]
+pub(super) struct EvalRequest {
+    /// Name of the model's class.
+    #[schema(example = "Facet_BRDF_Model")]
+    model: String,
+    /// Dotted names with values, or a list of pairs.
+    #[schema(example = json!({"substrate": "(1.5,0)"}))]
+    parameters: Option<Value>,
+    /// `psps`, `xyxy` or `plane`.
+    #[schema(example = "psps")]
+    basis: Option<String>,
+    /// Where the model is evaluated.
+    geometries: Vec<Angles>,
+    /// Texts of data files by the names that parameters give them.
+    files: Option<BTreeMap<String, String>>,
+}
+
+/// One geometry, radians.
+#[derive(Deserialize, ToSchema)]
+#[expect(dead_code, reason = "describes the API")]
+pub(super) struct Angles {
+    /// Polar angle of incidence.
+    #[schema(example = 0.5)]
+    theta_i: f64,
+    /// Polar angle of scattering.
+    #[schema(example = 0.2)]
+    theta_s: f64,
+    /// Azimuth of scattering; 0 is the specular side.
+    #[schema(example = 0.0)]
+    phi_s: f64,
+    /// Rotation of the sample.
+    rotation: Option<f64>,
+}
+
+/// What `mist eval` answers.
+#[derive(Serialize, ToSchema)]
+pub(super) struct EvalAnswer {
+    /// One Mueller matrix (1/sr) per geometry, row by row; what is not finite is a text.
+    mueller: Vec<Vec<Value>>,
+    /// Defects of NIST's library that a sound run stepped around.
+    defects: Option<Vec<String>>,
+}

@@ -1,0 +1,124 @@
+//! The finished steps of a job on their way into the store.
+
+use std::{
+    io,
+    time::{Duration, Instant},
+};
+
+use mist_engine::{Finished, Journal};
+
+use crate::store::Store;
+
+/// Steps are kept together at least this often: what a crash can cost.
+const OFTEN: Duration = Duration::from_millis(200);
+/// And whenever they have so many bytes.
+const BYTES: usize = 4 << 20;
+/// Bytes of a number.
+const NUMBER: usize = 8;
+
+/// The steps of one job.
+pub(super) struct Ledger<'a> {
+    store: &'a Store,
+    id: &'a str,
+    /// Whether the store may have the next step.
+    recalling: bool,
+    /// How many steps the store had.
+    pub(super) recalled: u64,
+    first: u64,
+    pending: Vec<Vec<u8>>,
+    bytes: usize,
+    kept: Instant,
+}
+
+impl<'a> Ledger<'a> {
+    pub(super) fn new(store: &'a Store, id: &'a str) -> Self {
+        Self {
+            store,
+            id,
+            recalling: true,
+            recalled: 0,
+            first: 0,
+            pending: Vec::new(),
+            bytes: 0,
+            kept: Instant::now(),
+        }
+    }
+
+    /// Keeps what is still on its way.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be kept.
+    pub(super) fn flush(&mut self) -> io::Result<()> {
+        if !self.pending.is_empty() {
+            self.store.put_steps(self.id, self.first, &self.pending)?;
+            self.pending.clear();
+            self.bytes = 0;
+        }
+        self.kept = Instant::now();
+        Ok(())
+    }
+}
+
+impl Journal for Ledger<'_> {
+    fn recall(&mut self, step: u64) -> io::Result<Option<Finished>> {
+        if !self.recalling {
+            return Ok(None);
+        }
+        let found = self.store.step(self.id, step)?.and_then(|bytes| decode(&bytes));
+        match found {
+            Some(_) => self.recalled += 1,
+            None => self.recalling = false,
+        }
+        Ok(found)
+    }
+
+    fn keep(&mut self, first: u64, steps: &[Finished]) -> io::Result<()> {
+        if self.pending.is_empty() {
+            self.first = first;
+        }
+        for step in steps {
+            let bytes = encode(step);
+            self.bytes += bytes.len();
+            self.pending.push(bytes);
+        }
+        if self.bytes >= BYTES || self.kept.elapsed() >= OFTEN {
+            self.flush()?;
+        }
+        Ok(())
+    }
+}
+
+/// The number of values, the values, the samples.
+fn encode(step: &Finished) -> Vec<u8> {
+    let count = step.values.len() as u64;
+    let values = step.values.iter().flat_map(|value| value.to_le_bytes());
+    count.to_le_bytes().into_iter().chain(values).chain(step.samples.bytes()).collect()
+}
+
+fn decode(bytes: &[u8]) -> Option<Finished> {
+    let (count, rest) = bytes.split_at_checked(NUMBER)?;
+    let count = usize::try_from(u64::from_le_bytes(count.try_into().ok()?)).ok()?;
+    let (values, samples) = rest.split_at_checked(count.checked_mul(NUMBER)?)?;
+    let value = |bytes: &[u8]| bytes.try_into().ok().map(f64::from_le_bytes);
+    let values: Option<Vec<f64>> = values.chunks(NUMBER).map(value).collect();
+    Some(Finished { values: values?, samples: String::from_utf8(samples.to_vec()).ok()? })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_comes_back_to_the_bit() {
+        let step = Finished {
+            values: vec![0.1 + 0.2, -0.0, f64::INFINITY, f64::from_bits(1)],
+            samples: "0\t1\n".into(),
+        };
+        let back = decode(&encode(&step)).unwrap();
+        let bits = |step: &Finished| step.values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!((bits(&back), back.samples), (bits(&step), step.samples));
+        assert_eq!(decode(&[1, 0]), None);
+        assert_eq!(decode(&u64::MAX.to_le_bytes()), None);
+    }
+}

@@ -1,0 +1,109 @@
+//! What the service allows its clients; every bound is a flag of `mist serve`.
+
+use std::time::Duration;
+
+/// The bounds. An answer that refuses names the flag and its value.
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "Limits")]
+pub struct ServeLimits {
+    /// Bytes of the body of a request.
+    #[arg(long, default_value_t = 16 << 20, value_name = "BYTES")]
+    pub max_body: usize,
+    /// Bytes of the text of a program, its data files excepted.
+    #[arg(long, default_value_t = 1 << 20, value_name = "BYTES")]
+    pub max_program: usize,
+    /// Evaluations of the model for one answer or job.
+    #[arg(long, default_value_t = 1e11, value_name = "N")]
+    pub max_evaluations: f64,
+    /// Directions held in memory: of one integral, or of all patches of a table.
+    #[arg(long, default_value_t = 4e6, value_name = "N")]
+    pub max_directions: f64,
+    /// Steps of the loops of a program, and nodes of a grid.
+    #[arg(long, default_value_t = 4_000_000, value_name = "N")]
+    pub max_steps: u64,
+    /// Numbers of a table: rows times wavelengths times Stokes components.
+    #[arg(long, default_value_t = 3e7, value_name = "N")]
+    pub max_numbers: f64,
+    /// Wavelengths of one answer: a model is built for each.
+    #[arg(long, default_value_t = 2000, value_name = "N")]
+    pub max_wavelengths: usize,
+    /// Bytes of results, listing and samples of a run together.
+    #[arg(long, default_value_t = 256 << 20, value_name = "BYTES")]
+    pub max_output: usize,
+    /// Seconds that one answer may be computed.
+    #[arg(long, default_value_t = 300.0, value_name = "SECONDS")]
+    pub max_time: f64,
+    /// Seconds that a job may run.
+    #[arg(long, default_value_t = 86_400.0, value_name = "SECONDS")]
+    pub max_job_time: f64,
+    /// Answers that are computed at the same time; each uses all threads.
+    #[arg(long, default_value_t = 2, value_name = "N")]
+    pub max_computing: usize,
+    /// Answers that wait for that.
+    #[arg(long, default_value_t = 256, value_name = "N")]
+    pub max_waiting: usize,
+    /// Jobs that run at the same time; each uses all threads.
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    pub max_running: usize,
+    /// Jobs that wait, of all clients.
+    #[arg(long, default_value_t = 1000, value_name = "N")]
+    pub max_queued: usize,
+    /// Jobs of one client that wait or run.
+    #[arg(long, default_value_t = 200, value_name = "N")]
+    pub max_client_jobs: usize,
+    /// Finished jobs that are kept; older ones are forgotten.
+    #[arg(long, default_value_t = 1000, value_name = "N")]
+    pub max_finished: usize,
+    /// Materials that are kept.
+    #[arg(long, default_value_t = 10_000, value_name = "N")]
+    pub max_materials: usize,
+    /// Bytes of tables that are kept for the next asker.
+    #[arg(long, default_value_t = 256 << 20, value_name = "BYTES")]
+    pub max_kept: usize,
+    /// Open connections.
+    #[arg(long, default_value_t = 1024, value_name = "N")]
+    pub max_connections: usize,
+    /// Seconds in which the head of a request must be sent, and then its body.
+    #[arg(long, default_value_t = 60.0, value_name = "SECONDS")]
+    pub max_silence: f64,
+}
+
+impl Default for ServeLimits {
+    /// What `mist serve` allows without flags.
+    fn default() -> Self {
+        #[derive(clap::Parser)]
+        struct Flags {
+            #[command(flatten)]
+            limits: ServeLimits,
+        }
+        <Flags as clap::Parser>::parse_from(["mist"]).limits
+    }
+}
+
+impl ServeLimits {
+    /// The bounds of a table or a run that ends within `seconds`.
+    pub(crate) fn engine(&self, seconds: f64) -> mist_engine::Limits {
+        mist_engine::Limits {
+            evaluations: self.max_evaluations,
+            directions: self.max_directions,
+            steps: self.max_steps,
+            time: Some(duration(seconds)),
+        }
+    }
+
+    /// How long one answer may be computed.
+    pub(crate) fn time(&self) -> Duration {
+        duration(self.max_time)
+    }
+
+    /// How long a client may take to send a head or a body.
+    pub(crate) fn silence(&self) -> Duration {
+        duration(self.max_silence)
+    }
+}
+
+/// A length of time; what no clock can count is a century.
+fn duration(seconds: f64) -> Duration {
+    const CENTURY: Duration = Duration::from_secs(100 * 365 * 86_400);
+    Duration::try_from_secs_f64(seconds).unwrap_or(CENTURY).min(CENTURY)
+}

@@ -1,0 +1,10 @@
+//! The service, asked without a socket.
+
+mod ask;
+mod evaluate;
+mod integrate;
+mod jobs;
+mod models;
+mod openapi;
+mod safety;
+mod tables;
