@@ -70,6 +70,7 @@ impl ProgramBody {
             job: self.job.clone().unwrap_or_else(|| "job".into()),
             seed: self.seed.unwrap_or(1),
             limits,
+            ..Options::default()
         }
     }
 
