@@ -24,6 +24,7 @@ pub mod goniometer;
 pub mod image;
 pub mod klems;
 pub mod mitsuba;
+pub mod preview;
 pub mod read;
 pub mod rise;
 pub mod tensor;

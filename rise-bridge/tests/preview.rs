@@ -1,0 +1,149 @@
+//! Pictures against closed forms: white, glass at Brewster's angle, one bounce, polarized lamps.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use mist_engine::{
+    Control,
+    material::{Material, Prepared, query::ColourNames},
+};
+use rise_bridge::preview::{Film, Lamp, LampBasis, Scene, Shape, mesh::Mesh, render};
+use scattering::Mode;
+use spectra::ColourSettings;
+
+const WAVELENGTHS: [f64; 7] = [400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0];
+
+fn material(json: &str) -> Prepared {
+    Material::from_json(json).unwrap().prepare(Mode::Sound, None).unwrap()
+}
+
+fn white() -> Prepared {
+    material(r#"{"model":"Lambertian_BRDF_Model","parameters":{"reflectance.table":1}}"#)
+}
+
+fn settings() -> ColourSettings {
+    let names = ColourNames { quantity: Some("factor".into()), ..ColourNames::default() };
+    names.settings(None).unwrap()
+}
+
+fn scene(shape: Shape, lamps: Vec<Lamp>) -> Scene {
+    Scene {
+        shape,
+        lamps,
+        light: [1.0, 0.0, 0.0, 0.0],
+        light_basis: LampBasis::PlaneOfIncidence,
+        sky: 0.0,
+        bounce: false,
+        size: [16, 16],
+        samples: 4,
+    }
+}
+
+fn film(material: &Prepared, scene: &Scene) -> Film {
+    render(material, scene, &WAVELENGTHS, settings(), &Control::default()).unwrap()
+}
+
+/// Y of the four Stokes components in the middle of the picture.
+fn middle(film: &Film) -> [f64; 4] {
+    let [width, height] = film.size;
+    film.pixels[width * (height / 2) + width / 2].map(|xyz| xyz.y)
+}
+
+fn degrees(angle: f64) -> f64 {
+    angle * PI / 180.0
+}
+
+#[test]
+fn a_white_surface_that_faces_the_lamp_has_the_value_one() {
+    let lamp = Lamp { toward: DVec3::Z, radius: 0.0, irradiance: 1.0 };
+    let [i, q, u, v] = middle(&film(&white(), &scene(Shape::Plane(0.0), vec![lamp])));
+    // The spectrum is summed in another order than that of the white.
+    assert!((i - 1.0).abs() < 1e-12 && q == 0.0 && u == 0.0 && v == 0.0, "{i} {q} {u} {v}");
+}
+
+#[test]
+fn a_white_surface_under_the_sky_alone_has_the_value_of_the_sky() {
+    let sky = Scene { sky: 0.5, ..scene(Shape::Plane(0.3), Vec::new()) };
+    // Every sample of a white surface has the same value.
+    assert!((middle(&film(&white(), &sky))[0] - 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn light_in_the_mirror_of_glass_at_brewsters_angle_is_horizontal() {
+    let glass = r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)",
+        "sdf":"Gaussian_Slope_Distribution_Function","sdf.s":0.2}}"#;
+    let tilt = 1.5_f64.atan();
+    // The plane leans back, so the mirror of the view lies above, in the plane x = 0.
+    let lamp = Lamp::at(2.0 * tilt, degrees(90.0), 0.0, 1.0);
+    let [i, q, u, v] = middle(&film(&material(glass), &scene(Shape::Plane(tilt), vec![lamp])));
+    assert!(i > 0.01, "{i}");
+    for (found, expected) in [(q / i, 1.0), (u / i, 0.0), (v / i, 0.0)] {
+        assert!((found - expected).abs() < 1e-9, "{q} {u} {v} of {i}");
+    }
+}
+
+#[test]
+fn a_filter_sees_a_turned_camera_as_a_turned_filter() {
+    // The same scene turned by 30° about the view: Q + iU turns by 60°.
+    let metal = r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.2,7)","sdf.s":0.4}}"#;
+    let metal = material(metal);
+    let turned = |azimuth: f64| {
+        let lamp = Lamp::at(degrees(50.0), degrees(azimuth), 0.0, 1.0);
+        middle(&film(&metal, &Scene { light: [1.0, 0.3, 0.4, 0.5], ..scene(Shape::Plane(0.0), vec![lamp]) }))
+    };
+    let ([i, q, u, v], [i2, q2, u2, v2]) = (turned(10.0), turned(40.0));
+    let (sin, cos) = degrees(60.0).sin_cos();
+    for (found, expected) in [(i2, i), (q2, cos * q - sin * u), (u2, sin * q + cos * u), (v2, v)] {
+        assert!((found - expected).abs() < 1e-12 * i, "{found} {expected}");
+    }
+}
+
+#[test]
+fn horizontal_light_is_perpendicular_to_a_vertical_plane_of_incidence() {
+    let metal = r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.2,7)","sdf.s":0.4}}"#;
+    let metal = material(metal);
+    let seen = |light_basis| {
+        let lamp = Lamp::at(degrees(50.0), degrees(90.0), 0.0, 1.0);
+        let light = [1.0, 0.6, 0.0, 0.5];
+        middle(&film(&metal, &Scene { light, light_basis, ..scene(Shape::Plane(0.0), vec![lamp]) }))
+    };
+    let (plane, horizontal) = (seen(LampBasis::PlaneOfIncidence), seen(LampBasis::Horizontal));
+    for (a, b) in plane.iter().zip(horizontal) {
+        assert!((a - b).abs() < 1e-12, "{plane:?} {horizontal:?}");
+    }
+}
+
+#[test]
+fn light_between_points_makes_a_white_torus_brighter_and_depolarizes_nothing() {
+    let lamp = Lamp::at(degrees(20.0), degrees(90.0), 0.0, 1.0);
+    let dark = scene(Shape::Mesh(Mesh::torus(24)), vec![lamp]);
+    let bright = Scene { bounce: true, samples: 16, ..dark.clone() };
+    let sum = |film: &Film| film.pixels.iter().map(|pixel| pixel[0].y).sum::<f64>();
+    let (once, twice) = (sum(&film(&white(), &dark)), sum(&film(&white(), &bright)));
+    assert!(twice > 1.01 * once && twice < 1.5 * once, "{once} {twice}");
+}
+
+#[test]
+fn the_picture_is_the_same_on_one_thread_and_on_three() {
+    let lamp = Lamp::at(degrees(40.0), degrees(120.0), degrees(3.0), 1.0);
+    let metal = r#"{"model":"Facet_BRDF_Model","parameters":{"sdf.s":0.4}}"#;
+    let metal = material(metal);
+    let scene = Scene { sky: 0.2, bounce: true, ..scene(Shape::Sphere, vec![lamp]) };
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| film(&metal, &scene))
+    };
+    assert!(on(1) == on(3));
+}
+
+#[test]
+fn a_transmitting_model_and_a_wish_to_stop_are_refused() {
+    let lamp = Lamp::at(0.3, 0.0, 0.0, 1.0);
+    let scene = scene(Shape::Sphere, vec![lamp]);
+    let through = r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","type":1}}"#;
+    let refusal = render(&material(through), &scene, &WAVELENGTHS, settings(), &Control::default());
+    assert!(refusal.unwrap_err().to_string().contains("type"));
+    let control = Control::default();
+    control.cancel.store(true, std::sync::atomic::Ordering::Relaxed);
+    assert!(render(&white(), &scene, &WAVELENGTHS, settings(), &control).is_err());
+}
