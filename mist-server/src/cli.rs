@@ -15,6 +15,7 @@ mod fmt;
 mod key;
 mod material;
 mod models;
+mod preview;
 mod run;
 mod serve;
 mod source;
@@ -55,6 +56,7 @@ enum Command {
     Check(check::Args),
     Models(models::Args),
     Table(Box<table::Args>),
+    Preview(Box<preview::Args>),
     Export(export::Args),
     Bridge(bridge::Args),
     Eval(eval::Args),
@@ -83,6 +85,7 @@ pub fn main() -> ExitCode {
         Command::Fit(args) => fit::fit(&args),
         Command::Tolerance(args) => tolerance::tolerance(&args),
         Command::Table(args) => table::table(&args),
+        Command::Preview(args) => preview::preview(&args),
         Command::Export(args) => export::export(&args),
         Command::Bridge(args) => bridge::bridge(&args),
         Command::Eval(args) => eval::eval(&args),

@@ -64,10 +64,8 @@ fn the_python_client_passes_its_tests_with_and_without_numpy() {
     let script = clients().join("python/test_mist_client.py");
     // -I leaves out what users have installed, numpy too.
     let path = format!("import sys; sys.path.insert(0, {:?})", clients().join("python"));
-    let isolated = format!(
-        "{path}; sys.argv[:] = ['test', {:?}]; exec(open({script:?}).read())",
-        service.url
-    );
+    let isolated =
+        format!("{path}; sys.argv[:] = ['test', {:?}]; exec(open({script:?}).read())", service.url);
     let (mut plain, mut bare) = (Command::new("python3"), Command::new("python3"));
     for command in [plain.arg(&script).arg(&service.url), bare.args(["-ISc", &isolated])] {
         if let Some(output) = run(command.env("PYTHONDONTWRITEBYTECODE", "1")) {
@@ -92,7 +90,8 @@ fn the_header_for_cpp_reads_tables_as_they_are_and_refuses_cut_ones() {
     let Some(built) = run(compiler.arg(clients().join("cpp/example.cpp"))) else { return };
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
 
-    let material = r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","sdf.s":0.3}}"#;
+    let material =
+        r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","sdf.s":0.3}}"#;
     fs::write(dir.path().join("glass.json"), material).unwrap();
     let table = dir.path().join("glass.mtab");
     let made = Command::new(env!("CARGO_BIN_EXE_mist"))
@@ -108,7 +107,9 @@ fn the_header_for_cpp_reads_tables_as_they_are_and_refuses_cut_ones() {
     let row = text.lines().find(|line| line.starts_with("45 30 120 ")).unwrap();
     let row: Vec<f64> = row.split(' ').map(|word| word.parse().unwrap()).collect();
     let ask = |phis: &str, filter: &str| {
-        numbers(&Command::new(&program).arg(&table).args(["45", "30", phis, filter]).output().unwrap())
+        numbers(
+            &Command::new(&program).arg(&table).args(["45", "30", phis, filter]).output().unwrap(),
+        )
     };
     let (here, there) = (ask("120", "30"), ask("-120", "-30"));
     assert_eq!((&here[..3], &there[..]), (&row[4..7], &here[..]));
@@ -120,7 +121,6 @@ fn the_header_for_cpp_reads_tables_as_they_are_and_refuses_cut_ones() {
     let cut = dir.path().join("cut.mtab");
     let lines: Vec<&str> = text.lines().collect();
     fs::write(&cut, lines[..lines.len() - 2].join("\n")).unwrap();
-    let refused =
-        Command::new(&program).arg(&cut).args(["45", "30", "0", "0"]).output().unwrap();
+    let refused = Command::new(&program).arg(&cut).args(["45", "30", "0", "0"]).output().unwrap();
     assert_eq!(refused.status.code(), Some(1));
 }

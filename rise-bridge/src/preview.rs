@@ -110,9 +110,11 @@ pub fn render(
     settings: ColourSettings,
     control: &Control,
 ) -> Result<Film, MaterialError> {
-    let refused = |part: &str, problem: String| MaterialError::Request { part: part.into(), problem };
+    let refused =
+        |part: &str, problem: String| MaterialError::Request { part: part.into(), problem };
     let grid = Grid::new(wavelengths).map_err(|e| refused("lambda", e.to_string()))?;
-    let plan = ColourPlan::new(&grid, settings).map_err(|e| refused("adaptation", e.to_string()))?;
+    let plan =
+        ColourPlan::new(&grid, settings).map_err(|e| refused("adaptation", e.to_string()))?;
     let models = wavelengths
         .par_iter()
         .map(|nm| Ok(material.at(nm / 1000.0).model()?.0))

@@ -89,7 +89,10 @@ fn a_filter_sees_a_turned_camera_as_a_turned_filter() {
     let metal = material(metal);
     let turned = |azimuth: f64| {
         let lamp = Lamp::at(degrees(50.0), degrees(azimuth), 0.0, 1.0);
-        middle(&film(&metal, &Scene { light: [1.0, 0.3, 0.4, 0.5], ..scene(Shape::Plane(0.0), vec![lamp]) }))
+        middle(&film(
+            &metal,
+            &Scene { light: [1.0, 0.3, 0.4, 0.5], ..scene(Shape::Plane(0.0), vec![lamp]) },
+        ))
     };
     let ([i, q, u, v], [i2, q2, u2, v2]) = (turned(10.0), turned(40.0));
     let (sin, cos) = degrees(60.0).sin_cos();

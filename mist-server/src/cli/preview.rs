@@ -47,7 +47,12 @@ pub(super) struct Args {
     shape: String,
     /// Polar angle from the view, azimuth from the right, half-angle of its disc (degrees) and
     /// irradiance of a lamp; the last two may be missing (0, 1). Repeatable.
-    #[arg(long, default_value = "40,120", value_name = "POLAR,AZIMUTH[,RADIUS[,E]]", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        default_value = "40,120",
+        value_name = "POLAR,AZIMUTH[,RADIUS[,E]]",
+        allow_hyphen_values = true
+    )]
     lamp: Vec<String>,
     /// Radiance of a uniform sky: what a white diffuser has from it.
     #[arg(long, default_value_t = 0.0, value_name = "FACTOR")]
@@ -125,9 +130,8 @@ pub(super) fn preview(args: &Args) -> Result<(), Stop> {
     let bar = progress.clone();
     let control =
         Control { cancel: interrupt::flag(), progress: Some(Box::new(move |part| bar.set(part))) };
-    let made = pool(args.threads)?.install(|| {
-        preview::render(&material, &scene, &wavelengths, settings.clone(), &control)
-    });
+    let made = pool(args.threads)?
+        .install(|| preview::render(&material, &scene, &wavelengths, settings.clone(), &control));
     progress.finish();
     let film = made.map_err(refused)?;
     let failed = |error: String| Stop::Failed(error);
@@ -226,9 +230,15 @@ impl Args {
             _ => {}
         }
         let angle = self.filter.strip_prefix("linear:").and_then(|text| text.parse::<f64>().ok());
-        angle.filter(|angle| angle.is_finite()).map(|a| Polarization::Linear(a.to_radians())).ok_or_else(
-            || Stop::Refused(format!("--filter is none, linear:ANGLE, left or right, not {}", self.filter)),
-        )
+        angle
+            .filter(|angle| angle.is_finite())
+            .map(|a| Polarization::Linear(a.to_radians()))
+            .ok_or_else(|| {
+                Stop::Refused(format!(
+                    "--filter is none, linear:ANGLE, left or right, not {}",
+                    self.filter
+                ))
+            })
     }
 }
 
@@ -238,8 +248,11 @@ fn lamp(text: &str) -> Result<Lamp, Stop> {
         let expected = "POLAR,AZIMUTH[,RADIUS[,E]] in degrees with 0 ≤ RADIUS ≤ 90 and E ≥ 0";
         Stop::Refused(format!("--lamp is {expected}, not {text}"))
     };
-    let numbers: Vec<f64> =
-        text.split(',').map(|word| word.trim().parse()).collect::<Result<_, _>>().map_err(|_| refused())?;
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|word| word.trim().parse())
+        .collect::<Result<_, _>>()
+        .map_err(|_| refused())?;
     let (polar, azimuth, radius, irradiance) = match numbers[..] {
         [polar, azimuth] => (polar, azimuth, 0.0, 1.0),
         [polar, azimuth, radius] => (polar, azimuth, radius, 1.0),
@@ -250,6 +263,8 @@ fn lamp(text: &str) -> Result<Lamp, Stop> {
         && (0.0..=90.0).contains(&radius)
         && irradiance >= 0.0;
     is_good
-        .then(|| Lamp::at(polar.to_radians(), azimuth.to_radians(), radius.to_radians(), irradiance))
+        .then(|| {
+            Lamp::at(polar.to_radians(), azimuth.to_radians(), radius.to_radians(), irradiance)
+        })
         .ok_or_else(refused)
 }

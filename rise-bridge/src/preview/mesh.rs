@@ -75,7 +75,10 @@ impl Mesh {
         };
         let triangles: Vec<Triangle> = faces
             .iter()
-            .map(|face| Triangle { corners: face.map(|i| points[i]), normals: face.map(|i| normals[i]) })
+            .map(|face| Triangle {
+                corners: face.map(|i| points[i]),
+                normals: face.map(|i| normals[i]),
+            })
             .filter(|triangle| triangle.area().length_squared() > 0.0)
             .collect();
         if triangles.is_empty() {
@@ -123,8 +126,7 @@ impl Mesh {
             };
             (lean(RADII[0] * ring + RADII[1] * normal), lean(normal))
         };
-        let (points, normals): (Vec<_>, Vec<_>) =
-            (0..n * n).map(|k| place(k / n, k % n)).unzip();
+        let (points, normals): (Vec<_>, Vec<_>) = (0..n * n).map(|k| place(k / n, k % n)).unzip();
         let faces: Vec<_> = (0..n * n)
             .flat_map(|k| {
                 let (i, j) = (k / n, k % n);
@@ -279,7 +281,9 @@ mod tests {
 
     #[test]
     fn texts_that_are_no_mesh_are_refused() {
-        for text in ["", "v 0 0 0\n", "f 1 2 3\n", "v 1 2 x\n", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n"] {
+        for text in
+            ["", "v 0 0 0\n", "f 1 2 3\n", "v 1 2 x\n", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n"]
+        {
             assert!(Mesh::from_obj(text).is_err(), "{text:?}");
         }
     }

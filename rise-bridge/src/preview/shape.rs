@@ -82,8 +82,12 @@ fn plane(Ray { from, along }: Ray, tilt: f64) -> Option<Hit> {
     let distance = -from.dot(normal) / along.dot(normal);
     let point = from + distance * along;
     let inside = point.x.abs() <= HALF_SIDE && point.dot(up).abs() <= HALF_SIDE;
-    (distance > 0.0 && along.dot(normal) < 0.0 && inside)
-        .then_some(Hit { distance, point, normal, true_normal: normal })
+    (distance > 0.0 && along.dot(normal) < 0.0 && inside).then_some(Hit {
+        distance,
+        point,
+        normal,
+        true_normal: normal,
+    })
 }
 
 #[cfg(test)]
