@@ -15,6 +15,7 @@ mod listen;
 mod materials;
 mod metrics;
 mod models;
+mod page;
 mod problem;
 mod program;
 mod recent;
@@ -95,7 +96,7 @@ pub fn openapi() -> String {
 /// The service, without a socket.
 pub fn router(app: App) -> Router {
     let (router, _) = routes().split_for_parts();
-    let router = export::routes(router);
+    let router = export::routes(router).merge(page::routes());
     let document = axum::body::Bytes::from(openapi());
     let json = [(axum::http::header::CONTENT_TYPE, "application/json")];
     #[cfg(feature = "swagger")]
