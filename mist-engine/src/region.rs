@@ -220,6 +220,15 @@ mod tests {
     }
 
     #[test]
+    fn the_sign_of_a_half_angle_does_not_matter() {
+        let area = |alpha| Region::Circle { center: (0.9, 0.2), alpha }.projected_solid_angle();
+        for alpha in [0.1, 0.8, 1.5] {
+            assert!(area(alpha) > 0.0);
+            assert_eq!(area(alpha), area(-alpha));
+        }
+    }
+
+    #[test]
     fn the_larger_circle_of_an_ordered_annulus_is_outside() {
         let annulus = |outer_alpha, inner_alpha| Region::Annulus {
             outer_center: (0.0, 0.0),
