@@ -21,7 +21,14 @@ use std::collections::BTreeSet;
 use mist_format::Diagnostic;
 use scattering::spec::Met;
 
-use crate::{Job, fault::Fault, output::Outputs, region::Region, replay::Replay, step::Step};
+use crate::{
+    Job,
+    fault::Fault,
+    output::Outputs,
+    region::Region,
+    replay::Replay,
+    step::{Evaluated, Step},
+};
 use apertures::Apertures;
 use reading::Reading;
 
@@ -100,7 +107,8 @@ impl<'j> Rehearsal<'j> {
 
     /// Names and functions of the outputs, with 1 for each integral.
     fn outputs(&self, step: &Step) -> Result<(), Fault> {
-        let ones = vec![1.0; self.job.integrals.len()];
+        let one = Evaluated { value: 1.0, error: 0.0 };
+        let ones = vec![one; self.job.integrals.len()];
         let about_names = |code| {
             matches!(code, "expr/unknown-name" | "expr/unknown-function" | "expr/file-arguments")
         };

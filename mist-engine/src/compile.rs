@@ -20,8 +20,10 @@ use crate::{
     fault::{Fault, fault, placed},
     job::{Entry, IntegralPlan, Key, OutputPlan, Required, Setting},
     quirk::{Quirk, dialect},
+    replay::ADAPTIVE,
     scope::{Names, Scope},
     sweep::{Column, ForPlan, ListPlan, LoopPlan},
+    uncertainty::ErrorColumns,
 };
 
 /// Compiles `source`; its data files come from `files`.
@@ -63,8 +65,10 @@ impl Compiler<'_> {
         let initial = self.initial(&program, &entries);
         let integrals: Vec<_> = program.integrals.iter().map(|i| self.integral(i)).collect();
         let outputs: Vec<_> = program.outputs.iter().map(|o| self.output(o)).collect();
-        let results: BTreeSet<u32> =
+        let errors = self.errors(&program, &entries, &initial, &integrals, &outputs);
+        let mut results: BTreeSet<u32> =
             integrals.iter().map(|i| i.slot).chain(outputs.iter().map(|o| o.slot)).collect();
+        results.extend(errors.iter().flat_map(ErrorColumns::slots));
         let loops: Vec<_> =
             program.loops.iter().filter_map(|each| self.vary(each, &entries, &results)).collect();
         self.incident_loops(&program, &entries, &loops);
@@ -91,6 +95,7 @@ impl Compiler<'_> {
             required,
             integrals,
             outputs,
+            errors,
             format: format.expect("a wrong format is a fault"),
             colour,
             reads,
@@ -151,6 +156,8 @@ impl Compiler<'_> {
             rotation: self.names.slot("rotation"),
             integrationmode: self.names.slot("integrationmode"),
             polygonsides: self.names.slot("polygonsides"),
+            tolerance: self.names.slot("tolerance"),
+            maxevaluations: self.names.slot("maxevaluations"),
             pi: self.names.slot("pi"),
             deg: self.names.slot("deg"),
         }
@@ -337,6 +344,55 @@ impl Compiler<'_> {
                 .note("NIST's program keeps the expression in VARIABLES for the whole run"),
             );
         }
+    }
+
+    /// The columns of the errors, if the variable `uncertainty` asks for them.
+    fn errors(
+        &mut self,
+        program: &Program,
+        entries: &[Entry],
+        initial: &[(u32, Value)],
+        integrals: &[IntegralPlan],
+        outputs: &[OutputPlan],
+    ) -> Option<ErrorColumns> {
+        let name = |e: &Entry| program.variables[e.variable].name.as_str();
+        let number = |slot| {
+            let found = initial.iter().rev().find(|(other, _)| Some(*other) == slot);
+            found.map(|(_, value)| value.number())
+        };
+        let numbers = || entries.iter().rev().filter(|entry| entry.slot.is_some());
+        let mode = numbers().find(|entry| name(entry) == "integrationmode")?;
+        let is_adaptive = number(mode.slot).is_some_and(|mode| mode as i32 == ADAPTIVE);
+        let entry = numbers().find(|entry| name(entry) == "uncertainty")?;
+        let value = number(entry.slot)?;
+        if value == 0.0 || !(is_adaptive || self.varies(program, "integrationmode")) {
+            return None;
+        }
+        if value != 1.0 {
+            let message = format!("uncertainty = {value} is neither 0 nor 1");
+            let text = &program.variables[entry.variable].value;
+            let help = "1 adds the column NAME.error of every integral NAME";
+            self.faults.push(fault_plain("program/accuracy", text, message).help(help));
+            return None;
+        }
+        if self.varies(program, "uncertainty") {
+            let message = "uncertainty decides the columns of the table: no loop can change it";
+            let text = &program.variables[entry.variable].value;
+            self.faults.push(fault_plain("program/accuracy", text, message));
+        }
+        let names = &mut self.names;
+        Some(ErrorColumns::new(integrals, outputs, |name| names.slot(name)))
+    }
+
+    /// Whether a loop changes the variable `name`.
+    fn varies(&self, program: &Program, name: &str) -> bool {
+        program.loops.iter().any(|each| match each {
+            Loop::For(statement) => statement.variable.as_str().eq_ignore_ascii_case(name),
+            Loop::List(statement) => {
+                let file = self.library.list(statement.file.as_str());
+                file.is_ok_and(|file| file.names().any(|title| title.eq_ignore_ascii_case(name)))
+            }
+        })
     }
 
     fn integral(&mut self, integral: &Integral) -> IntegralPlan {

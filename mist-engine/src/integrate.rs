@@ -6,10 +6,17 @@
 
 use std::ops::AddAssign;
 
+use glam::DVec3;
 use scattering::{Basis, Direction, Incidence, Model, Mueller, Stokes};
 
-use crate::sampling::{Layout, Scale, Weight};
-use crate::sum;
+use crate::{
+    region::Region,
+    sampling::{
+        Layout, Scale, Weight,
+        adaptive::{self, Demand},
+    },
+    sum,
+};
 
 /// Directions that are evaluated at a time; their matrices stay in the fastest cache.
 const BATCH: usize = 128;
@@ -97,6 +104,24 @@ pub fn samples(
             }
         });
     }
+}
+
+/// Hands the directions of an adaptive integral's last subdivision to `visit`; none where it has
+/// no value.
+pub(crate) fn adaptive_samples(
+    model: &Model,
+    incidence: &Incidence,
+    basis: Basis,
+    (region, demand): (&Region, &Demand),
+    (pol, inpol): (&Stokes, &Stokes),
+    visit: &mut dyn FnMut(Sample),
+) {
+    let show = &mut |v: DVec3, turned: &Mueller| {
+        let brdf = contract(turned, pol, inpol);
+        visit(Sample { theta: v.z.acos(), phi: v.y.atan2(v.x), brdf });
+    };
+    // Without a value the run has ended before it comes to samples.
+    let _ = adaptive::nodes(model, incidence, basis, region, demand, show);
 }
 
 /// −1 for models whose light leaves downwards, where the aperture turns the other way.

@@ -15,6 +15,7 @@ use crate::{
     region::RegionError,
     scope::Names,
     sweep::LoopPlan,
+    uncertainty::ErrorColumns,
 };
 
 /// How a program is compiled and run.
@@ -54,6 +55,8 @@ pub struct Job {
     pub(crate) required: Required,
     pub(crate) integrals: Vec<IntegralPlan>,
     pub(crate) outputs: Vec<OutputPlan>,
+    /// The columns of the errors, if the program wants them.
+    pub(crate) errors: Option<ErrorColumns>,
     pub(crate) format: PrintfFormat,
     pub(crate) basis: Basis,
     pub(crate) colour: Option<ColourSection>,
@@ -86,6 +89,8 @@ pub(crate) struct Required {
     pub(crate) rotation: u32,
     pub(crate) integrationmode: u32,
     pub(crate) polygonsides: u32,
+    pub(crate) tolerance: u32,
+    pub(crate) maxevaluations: u32,
     pub(crate) pi: u32,
     pub(crate) deg: u32,
 }
@@ -213,7 +218,7 @@ impl Job {
         let (place, help) = match error {
             RegionError::Mode(_) => (
                 self.variable_text(self.required.integrationmode),
-                "write 1 to 6, or 11 to 16 for sums without normalization",
+                "write 1 to 6, 11 to 16 for sums without normalization, or 20 for a stated error",
             ),
             RegionError::PolygonSides(_) => {
                 (self.variable_text(self.required.polygonsides), "360 is usual")

@@ -6,11 +6,13 @@
 
 use std::io;
 
+use crate::step::Evaluated;
+
 /// What the evaluation of one step gave.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Finished {
-    /// The values of the integrals, in the order of the program.
-    pub values: Vec<f64>,
+    /// The integrals, in the order of the program.
+    pub values: Vec<Evaluated>,
     /// The lines of the samples file, if the program has one.
     pub samples: String,
 }

@@ -40,6 +40,7 @@ mod share;
 mod step;
 mod sum;
 mod sweep;
+mod uncertainty;
 
 pub mod colour;
 pub mod compile;
@@ -65,4 +66,4 @@ pub use journal::{Finished, Journal};
 pub use limits::{Control, Limits};
 pub use output::{MemorySink, Sink, Stream};
 pub use run::Summary;
-pub use step::Step;
+pub use step::{Evaluated, Step};

@@ -12,7 +12,8 @@ use crate::{
     Job,
     fault::{Fault, placed},
     scope::Scope,
-    step::{Cell, Step},
+    step::{Cell, Evaluated, Step},
+    uncertainty::{ErrorColumn, ErrorColumns},
 };
 
 /// Digits of loop columns; the program's `format` does not concern them.
@@ -48,6 +49,24 @@ pub trait Sink {
         let _ = (loops, outputs);
         Ok(())
     }
+
+    /// Everything of the step number `step` is written.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be kept; the run ends.
+    fn step_done(&mut self, _step: u64) -> io::Result<()> {
+        Ok(())
+    }
+
+    /// A good moment to make sure that everything is kept.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be kept; the run ends.
+    fn block_done(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 /// Keeps the texts in memory.
@@ -80,8 +99,21 @@ pub(crate) fn head(job: &Job) -> String {
         text.push_str(header.as_str());
         text.push('\n');
     }
-    for title in job.columns().into_iter().flatten() {
+    let [loops, _] = job.columns();
+    for title in loops {
         text.push_str(title);
+        text.push('\t');
+    }
+    for (at, output) in job.outputs.iter().enumerate() {
+        text.push_str(&output.label);
+        text.push('\t');
+        for column in job.errors.iter().flat_map(|errors| errors.after(at)) {
+            text.push_str(&column.title);
+            text.push('\t');
+        }
+    }
+    for column in job.errors.iter().flat_map(ErrorColumns::last) {
+        text.push_str(&column.title);
         text.push('\t');
     }
     text.push('\n');
@@ -110,7 +142,7 @@ impl<'j> Outputs<'j> {
     }
 
     /// The line of `step`, whose integrals came out as `integrals`.
-    pub(crate) fn line(&mut self, step: &Step, integrals: &[f64]) -> Result<Line, Fault> {
+    pub(crate) fn line(&mut self, step: &Step, integrals: &[Evaluated]) -> Result<Line, Fault> {
         let job = self.job;
         let predefined =
             [(job.required.pi, 4.0 * 1f64.atan()), (job.required.deg, 4.0 * 1f64.atan() / 180.0)];
@@ -122,8 +154,12 @@ impl<'j> Outputs<'j> {
                 self.scope.put(*slot, value.clone());
             }
         }
-        for (plan, value) in job.integrals.iter().zip(integrals) {
-            self.scope.set(plan.slot, (*value).into());
+        for (plan, evaluated) in job.integrals.iter().zip(integrals) {
+            self.scope.set(plan.slot, evaluated.value.into());
+        }
+        let error = |column: &ErrorColumn| integrals[column.integral].error;
+        for column in job.errors.iter().flat_map(ErrorColumns::all) {
+            self.scope.set(column.slot, error(column).into());
         }
         let mut text = String::new();
         let mut loops = Vec::with_capacity(step.columns.len());
@@ -134,11 +170,17 @@ impl<'j> Outputs<'j> {
             loops.push(cell);
         }
         let mut outputs = Vec::with_capacity(job.outputs.len());
-        for output in &job.outputs {
+        for (at, output) in job.outputs.iter().enumerate() {
             let value = self.number_at(&output.expr, &output.text)?;
             self.scope.set(output.slot, value.into());
             text.push_str(&job.format.format(value));
             outputs.push(value);
+            for column in job.errors.iter().flat_map(|errors| errors.after(at)) {
+                text.push_str(&job.format.format(error(column)));
+            }
+        }
+        for column in job.errors.iter().flat_map(ErrorColumns::last) {
+            text.push_str(&job.format.format(error(column)));
         }
         text.push('\n');
         Ok(Line { text, loops, outputs })
@@ -169,7 +211,9 @@ impl<'j> Outputs<'j> {
     /// Gives integrals and labels to the scope of the next step.
     pub(crate) fn feed_back(&self, scope: &mut Scope) {
         let integrals = self.job.integrals.iter().map(|plan| plan.slot);
-        for slot in integrals.chain(self.job.outputs.iter().map(|output| output.slot)) {
+        let errors = self.job.errors.iter().flat_map(ErrorColumns::slots);
+        let outputs = self.job.outputs.iter().map(|output| output.slot);
+        for slot in integrals.chain(errors).chain(outputs) {
             scope.put(slot, self.scope.get(slot).cloned());
         }
     }

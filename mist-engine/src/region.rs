@@ -71,7 +71,7 @@ pub enum Apertures {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RegionError {
     /// There is no such way of sampling.
-    #[error("integrationmode {0} is none of 1 to 6 and 11 to 16")]
+    #[error("integrationmode {0} is none of 1 to 6, 11 to 16 and 20")]
     Mode(i32),
     /// Two edges of a polygon cross; edge `k` runs to vertex `k`, counted from 1.
     #[error(

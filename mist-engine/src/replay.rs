@@ -19,11 +19,20 @@ use crate::{
     parameters::Parameters,
     quirk::{Quirk, dialect},
     region::{Apertures, Region},
-    sampling::Sampling,
+    sampling::{Sampling, adaptive::Demand},
     scope::Scope,
     step::{Integral, Step},
     sweep::{Context, Sweep, Written},
 };
+
+/// The `integrationmode` of adaptive integrals.
+pub(crate) const ADAPTIVE: i32 = 20;
+
+/// `tolerance`, unless VARIABLES has it.
+const TOLERANCE: f64 = 1e-6;
+
+/// `maxevaluations`, unless VARIABLES has it.
+const BUDGET: f64 = 1e7;
 
 /// What an entry holds for the rest of the run after a loop has written it.
 struct Overwritten {
@@ -237,6 +246,7 @@ impl<'j> Replay<'j> {
         let min_samples = self.required(required.minsamples)?;
         let rotation = self.required(required.rotation)?;
         let mode = self.required(required.integrationmode)? as i32;
+        let demand = (mode == ADAPTIVE).then(|| self.demand()).transpose()?;
         let polygon_sides = self.required(required.polygonsides)? as i32;
         let sampling = Sampling {
             differential,
@@ -253,7 +263,7 @@ impl<'j> Replay<'j> {
         let mut integrals = Vec::with_capacity(job.integrals.len());
         if !job.chained {
             for plan in &job.integrals {
-                integrals.push(self.integral(plan, sampling.clone(), incident)?);
+                integrals.push(self.integral(plan, (sampling.clone(), demand), incident)?);
             }
         }
         let sweep = self.sweep.as_ref();
@@ -264,6 +274,7 @@ impl<'j> Replay<'j> {
             rotation,
             integrals,
             sampling,
+            demand,
             incident,
             columns: sweep.map(Sweep::cells).unwrap_or_default(),
             values: job.reads.iter().map(|slot| self.scope.get(*slot).cloned()).collect(),
@@ -277,7 +288,7 @@ impl<'j> Replay<'j> {
     /// have given.
     pub(crate) fn add_integral(&mut self, step: &mut Step) -> Result<(), Fault> {
         let plan = &self.job.integrals[step.integrals.len()];
-        let integral = self.integral(plan, step.sampling.clone(), step.incident)?;
+        let integral = self.integral(plan, (step.sampling.clone(), step.demand), step.incident)?;
         step.integrals.push(integral);
         Ok(())
     }
@@ -287,6 +298,34 @@ impl<'j> Replay<'j> {
             .get(slot)
             .map(Value::number)
             .ok_or_else(|| missing_required(&self.job.program, self.job.names.name(slot)))
+    }
+
+    /// What an adaptive integral must reach, by `tolerance` and `maxevaluations`.
+    fn demand(&self) -> Result<Demand, Fault> {
+        let required = &self.job.required;
+        let number = |slot, default| self.scope.get(slot).map_or(default, Value::number);
+        let tolerance = number(required.tolerance, TOLERANCE);
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            let message = format!("tolerance = {tolerance} is not between 0 and 1");
+            let help = "it is the relative error of an integral, such as tolerance = 1e-6";
+            return Err(self.about("tolerance", message, help));
+        }
+        let (budget, most) =
+            (number(required.maxevaluations, BUDGET), self.job.options.limits.directions);
+        if !(budget >= 1.0 && budget <= most) {
+            let message = format!("maxevaluations = {budget:e} is not from 1 to {most:e}");
+            let help = "it is for one Mueller integral, which is held in memory";
+            return Err(self.about("maxevaluations", message, help));
+        }
+        Ok(Demand { tolerance, budget: budget as u64 })
+    }
+
+    /// A fault of the variable `name`.
+    fn about(&self, name: &str, message: String, help: &str) -> Fault {
+        let program = &self.job.program;
+        let entry = program.variables.iter().rev().find(|v| v.name.as_str() == name);
+        let span = entry.map_or(program.sections.variables, |v| v.value.span());
+        Box::new(Diagnostic::error("program/accuracy", span, message).help(help))
     }
 
     fn incident(&mut self) -> Result<Stokes, Fault> {
@@ -304,7 +343,7 @@ impl<'j> Replay<'j> {
     fn integral(
         &mut self,
         plan: &IntegralPlan,
-        sampling: Sampling,
+        (sampling, demand): (Sampling, Option<Demand>),
         incident: Stokes,
     ) -> Result<Integral, Fault> {
         let mut aperture = Aperture { inpol: incident, ..Aperture::default() };
@@ -315,7 +354,7 @@ impl<'j> Replay<'j> {
                 .map_err(|error| unknown(self.job, &self.scope, &setting.text, &error))?;
             aperture.set(setting.key, &value, &setting.text)?;
         }
-        Ok(aperture.integral(plan, sampling))
+        Ok(aperture.integral(plan, sampling, demand))
     }
 }
 
@@ -347,7 +386,7 @@ impl Aperture {
         Ok(())
     }
 
-    fn integral(self, plan: &IntegralPlan, sampling: Sampling) -> Integral {
+    fn integral(self, plan: &IntegralPlan, sampling: Sampling, demand: Option<Demand>) -> Integral {
         let region = match plan.shape {
             Shape::Differential => Region::Differential { center: self.center },
             Shape::Circle => Region::Circle { center: self.center, alpha: self.alpha },
@@ -363,7 +402,7 @@ impl Aperture {
             }
         };
         let pol = self.pol.unwrap_or(Stokes::UNPOLARIZED);
-        Integral { region, sampling, pol, inpol: self.inpol }
+        Integral { region, sampling, demand, pol, inpol: self.inpol }
     }
 }
 

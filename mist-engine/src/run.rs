@@ -1,6 +1,10 @@
 //! Running a job: steps in blocks, each block in parallel, results in order.
 
-use std::{collections::BTreeSet, time::Instant};
+use std::{
+    collections::BTreeSet,
+    ops::Range,
+    time::{Duration, Instant},
+};
 
 use scattering::{Defect, Notice};
 
@@ -16,13 +20,19 @@ use crate::{
     replay::Replay,
     sampling::Layout,
     share::Shared,
-    step::{Integral, Step},
+    step::{Evaluated, Integral, Step},
+    uncertainty::ErrorColumns,
 };
 
 /// Steps that are replayed before they are evaluated together.
 const BLOCK_STEPS: usize = 1024;
 /// Evaluations after which a block is closed, so that progress is seen and a wish to stop heard.
 const BLOCK_EVALUATIONS: f64 = 2e6;
+
+/// A block of a part should take about this long.
+const SHORT: Duration = Duration::from_millis(250);
+/// Evaluations of an adaptive integral, about; it may be a thousand times more.
+const ADAPTIVE_EVALUATIONS: f64 = 2e4;
 
 /// What a finished run has to tell.
 #[derive(Debug, Default)]
@@ -62,7 +72,87 @@ impl Job {
         control: &Control,
         journal: &mut dyn Journal,
     ) -> Result<Summary, Failure> {
-        Runner::new(self, sink, control, journal).run()
+        sink.write(Stream::Listing, &listing::head(self))?;
+        sink.write(Stream::Results, &head(self))?;
+        if self.samples_name().is_some() {
+            sink.write(Stream::Samples, listing::SAMPLES_HEAD)?;
+        }
+        let mut runner = Runner::new(self, sink, control, journal);
+        runner.fold = self.colour.as_ref().map(Fold::new);
+        runner.steps()?;
+        runner.sink.write(Stream::Listing, &listing::tail(runner.summary.seconds))?;
+        let Runner { fold, mut summary, .. } = runner;
+        if let Some(fold) = fold {
+            let table = fold.table().map_err(|fault| Failure::Program(vec![*fault]))?;
+            summary.colour = Some(table);
+        }
+        Ok(summary)
+    }
+
+    /// Runs the steps `part` and writes their lines to `sink`, without what stands before the
+    /// first and behind the last step of the job ([`Job::head`], [`Job::tail`]) and without
+    /// colours. The lines of all parts, one after the other, are those of [`Job::run`].
+    ///
+    /// # Errors
+    ///
+    /// As for [`Job::run`].
+    ///
+    /// # Panics
+    ///
+    /// If the steps of the job must run in order.
+    pub fn run_part(
+        &self,
+        part: Range<u64>,
+        sink: &mut dyn Sink,
+        control: &Control,
+    ) -> Result<Summary, Failure> {
+        assert!(!self.in_order, "a part of a job that runs in order");
+        let mut forgetful = Forgetful;
+        let mut runner = Runner::new(self, sink, control, &mut forgetful);
+        runner.part = Some(part);
+        runner.pace = 1;
+        runner.steps()?;
+        Ok(runner.summary)
+    }
+
+    /// How many steps the loops have.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with a step, more steps than the limit, a wish to stop.
+    pub fn count_steps(&self, control: &Control) -> Result<u64, Failure> {
+        let mut replay = Replay::new(self);
+        let mut steps = 0;
+        while replay.next_step().map_err(|fault| at_step(steps, fault))?.is_some() {
+            steps += 1;
+            self.within_limit(steps)?;
+            if control.is_cancelled() {
+                return Err(Failure::Cancelled);
+            }
+        }
+        Ok(steps)
+    }
+
+    /// What stands before the first step.
+    pub fn head(&self, stream: Stream) -> String {
+        match stream {
+            Stream::Results => head(self),
+            Stream::Listing => listing::head(self),
+            Stream::Samples => listing::SAMPLES_HEAD.to_owned(),
+        }
+    }
+
+    /// What stands behind the last step of a run that took `seconds`.
+    pub fn tail(stream: Stream, seconds: f64) -> String {
+        if stream == Stream::Listing { listing::tail(seconds) } else { String::new() }
+    }
+
+    fn within_limit(&self, steps: u64) -> Result<(), Failure> {
+        let limit = self.options.limits.steps;
+        if steps > limit {
+            return Err(Failure::Limit(format!("the loops have more than {limit} steps")));
+        }
+        Ok(())
     }
 }
 
@@ -76,6 +166,10 @@ struct Runner<'a> {
     outputs: Outputs<'a>,
     fold: Option<Fold<'a>>,
     summary: Summary,
+    /// The steps to be evaluated, unless all are.
+    part: Option<Range<u64>>,
+    /// Steps of a block, at most.
+    pace: usize,
 }
 
 impl<'a> Runner<'a> {
@@ -93,50 +187,70 @@ impl<'a> Runner<'a> {
             meter: Meter::new(&job.options.limits),
             shared: Shared::new(job, control),
             outputs: Outputs::new(job),
-            fold: job.colour.as_ref().map(Fold::new),
+            fold: None,
             summary: Summary::default(),
+            part: None,
+            pace: if job.in_order { 1 } else { BLOCK_STEPS },
         }
     }
 
-    fn run(mut self) -> Result<Summary, Failure> {
+    /// All blocks.
+    fn steps(&mut self) -> Result<(), Failure> {
         let started = Instant::now();
-        self.sink.write(Stream::Listing, &listing::head(self.job))?;
-        self.sink.write(Stream::Results, &head(self.job))?;
-        if self.job.samples_name().is_some() {
-            self.sink.write(Stream::Samples, listing::SAMPLES_HEAD)?;
-        }
         let mut replay = Replay::new(self.job);
         loop {
+            let block_started = Instant::now();
             let block = self.gather(&mut replay)?;
             let Some(last) = block.last() else { break };
-            let fraction = last.fraction;
+            let fraction = self.fraction(last);
             self.evaluate(block, &mut replay)?;
+            self.sink.block_done()?;
             self.control.report(fraction);
+            self.keep_pace(block_started.elapsed());
         }
         self.summary.seconds = started.elapsed().as_secs_f64();
         self.summary.evaluations = self.meter.evaluations;
-        self.sink.write(Stream::Listing, &listing::tail(self.summary.seconds))?;
-        if let Some(fold) = self.fold.take() {
-            let table = fold.table().map_err(|fault| Failure::Program(vec![*fault]))?;
-            self.summary.colour = Some(table);
+        Ok(())
+    }
+
+    /// How much is done behind `step`.
+    fn fraction(&self, step: &Step) -> f64 {
+        self.part.as_ref().map_or(step.fraction, |part| {
+            (step.index + 1 - part.start) as f64 / (part.end - part.start) as f64
+        })
+    }
+
+    /// Keeps the blocks of a part short, for what is in them is lost when the process ends.
+    fn keep_pace(&mut self, took: Duration) {
+        if self.part.is_none() {
+            return;
         }
-        Ok(self.summary)
+        if took < SHORT {
+            self.pace = BLOCK_STEPS.min(2 * self.pace);
+        } else if took > 4 * SHORT {
+            self.pace = (self.pace / 2).max(1);
+        }
     }
 
     /// The steps of the next block; empty behind the last step.
     fn gather(&mut self, replay: &mut Replay<'_>) -> Result<Vec<Step>, Failure> {
-        let most = if self.job.in_order { 1 } else { BLOCK_STEPS };
         let mut block = Vec::new();
         let mut cost = 0.0;
-        while block.len() < most && cost < BLOCK_EVALUATIONS {
+        while block.len() < self.pace && cost < BLOCK_EVALUATIONS {
             let index = self.summary.steps;
+            if self.part.as_ref().is_some_and(|part| index >= part.end) {
+                break;
+            }
             let Some(step) = replay.next_step().map_err(|fault| at_step(index, fault))? else {
                 break;
             };
             self.summary.steps += 1;
-            if self.summary.steps > self.job.options.limits.steps {
-                let limit = self.job.options.limits.steps;
-                return Err(Failure::Limit(format!("the loops have more than {limit} steps")));
+            self.job.within_limit(self.summary.steps)?;
+            if self.part.as_ref().is_some_and(|part| index < part.start) {
+                if self.control.is_cancelled() {
+                    return Err(Failure::Cancelled);
+                }
+                continue;
             }
             cost += self.price(&step)?;
             block.push(step);
@@ -149,6 +263,10 @@ impl<'a> Runner<'a> {
         let limit = self.job.options.limits.directions;
         let mut cost = 0.0;
         for (integral, plan) in step.integrals.iter().zip(&self.job.integrals) {
+            if integral.demand.is_some() {
+                cost += ADAPTIVE_EVALUATIONS;
+                continue;
+            }
             let estimate = Layout::estimate(&integral.region, &integral.sampling);
             if estimate > limit {
                 return Err(Failure::Limit(format!(
@@ -191,6 +309,7 @@ impl<'a> Runner<'a> {
                 fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
             }
             self.sink.write(Stream::Samples, &finished.samples)?;
+            self.sink.step_done(step.index)?;
             if self.job.in_order {
                 self.outputs.feed_back(&mut replay.scope);
             }
@@ -224,7 +343,7 @@ impl<'a> Runner<'a> {
         block: &mut [Step],
         known: &[Finished],
         replay: &mut Replay<'_>,
-    ) -> Result<Vec<Vec<f64>>, Failure> {
+    ) -> Result<Vec<Vec<Evaluated>>, Failure> {
         let mut all = Vec::with_capacity(block.len());
         for (at, step) in block.iter_mut().enumerate() {
             let mut values = Vec::new();
@@ -239,7 +358,12 @@ impl<'a> Runner<'a> {
                         values.last()
                     }
                 };
-                replay.scope.set(plan.slot, last.copied().unwrap_or(f64::NAN).into());
+                let last = last.copied().unwrap_or(Evaluated::NONE);
+                replay.scope.set(plan.slot, last.value.into());
+                let errors = self.job.errors.iter().flat_map(ErrorColumns::all);
+                for column in errors.filter(|column| column.integral == number) {
+                    replay.scope.set(column.slot, last.error.into());
+                }
             }
             if at >= known.len() {
                 all.push(values);

@@ -3,7 +3,11 @@
 use mist_format::expr::Value;
 use scattering::Stokes;
 
-use crate::{parameters::Parameters, region::Region, sampling::Sampling};
+use crate::{
+    parameters::Parameters,
+    region::Region,
+    sampling::{LayoutKey, Sampling, adaptive::Demand},
+};
 
 /// One combination of loop values, ready to be evaluated.
 pub struct Step {
@@ -19,6 +23,8 @@ pub struct Step {
     pub integrals: Vec<Integral>,
     /// How its integrals are sampled.
     pub(crate) sampling: Sampling,
+    /// How accurate its integrals must be, if they are adaptive.
+    pub(crate) demand: Option<Demand>,
     /// The incident light of integrals without INPOL.
     pub(crate) incident: Stokes,
     /// What the columns of the loops show.
@@ -39,10 +45,36 @@ pub struct Integral {
     pub region: Region,
     /// How it is sampled.
     pub sampling: Sampling,
+    /// How accurate it must be, if it is adaptive; then it is not sampled.
+    pub demand: Option<Demand>,
     /// Sensitivity of the detector.
     pub pol: Stokes,
     /// Incident light.
     pub inpol: Stokes,
+}
+
+impl Integral {
+    /// What tells its directions from those of other integrals.
+    pub(crate) fn layout_key(&self) -> LayoutKey {
+        match &self.demand {
+            Some(demand) => LayoutKey::adaptive(&self.region, demand),
+            None => LayoutKey::new(&self.region, &self.sampling),
+        }
+    }
+}
+
+/// An integral of a step that has been evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evaluated {
+    /// Its value.
+    pub value: f64,
+    /// The estimated error; NaN for integrals over a grid, 0 for one direction.
+    pub error: f64,
+}
+
+impl Evaluated {
+    /// What an integral has that nobody evaluated.
+    pub(crate) const NONE: Self = Self { value: f64::NAN, error: f64::NAN };
 }
 
 /// What a loop column shows.

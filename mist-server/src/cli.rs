@@ -14,6 +14,7 @@ mod fit;
 mod fmt;
 mod key;
 mod material;
+mod merge;
 mod models;
 mod preview;
 mod run;
@@ -53,6 +54,7 @@ Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong."
 #[derive(Subcommand)]
 enum Command {
     Run(run::Args),
+    Merge(merge::Args),
     Check(check::Args),
     Models(models::Args),
     Table(Box<table::Args>),
@@ -75,6 +77,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Run(args) => run::run(args),
+        Command::Merge(args) => merge::merge(&args),
         Command::Check(args) => check::check(&args),
         Command::Models(args) => models::models(&args),
         Command::Color(args) => color::color(&args),

@@ -15,6 +15,7 @@ mod progress;
 mod registry;
 mod report;
 mod results;
+mod shard;
 mod store;
 mod wanted;
 

@@ -1,5 +1,6 @@
 //! The BRDF models, one file each, and the one way to ask them.
 
+use glam::DVec3;
 use num_complex::Complex64;
 
 use crate::{
@@ -44,6 +45,13 @@ pub trait Brdf: Send + Sync {
         None
     }
 
+    /// Cones with sharp rims into which light of one beam goes, such as the orders of a grating.
+    ///
+    /// Who integrates over directions would else miss narrow ones; rims may be approximate.
+    fn spots(&self, _: &Incidence) -> Vec<Spot> {
+        Vec::new()
+    }
+
     /// Whether [`Brdf::jones`] answers.
     fn is_coherent(&self) -> bool {
         false
@@ -53,6 +61,15 @@ pub trait Brdf: Send + Sync {
     fn native_basis(&self) -> Basis {
         Basis::Psps
     }
+}
+
+/// A cone of directions with a sharp rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// The unit vector of its middle, as seen from its side of the surface.
+    pub axis: DVec3,
+    /// Its half angle, radians.
+    pub half_angle: f64,
 }
 
 /// What every model has.
@@ -195,6 +212,11 @@ impl Model {
     /// What every model has.
     pub fn common(&self) -> &Common {
         self.brdf.common()
+    }
+
+    /// Cones with sharp rims into which light of one beam goes; none at and below the horizon.
+    pub fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
+        if is_above(incidence.theta) { self.brdf.spots(incidence) } else { Vec::new() }
     }
 
     /// Mueller BRDF (1/sr) for one geometry; zero at and below the horizon of either beam.

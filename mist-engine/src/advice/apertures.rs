@@ -63,6 +63,10 @@ impl<'j> Apertures<'j> {
     pub(super) fn see(&mut self, step: &Step) -> Result<(), Fault> {
         self.steps += 1.0;
         for (at, (integral, seen)) in step.integrals.iter().zip(&mut self.seen).enumerate() {
+            // Adaptive integrals are not laid out.
+            if integral.demand.is_some() {
+                continue;
+            }
             let estimate = Layout::estimate(&integral.region, &integral.sampling);
             self.directions += estimate;
             seen.most = seen.most.max(estimate);

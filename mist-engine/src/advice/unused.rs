@@ -12,7 +12,8 @@ use mist_format::{
 use crate::{Job, colour::section::ColourSection, quirk::dialect, sweep::LoopPlan};
 
 /// Names that the language itself reads at every step.
-const READ_BY_ALL: [&str; 4] = ["integrationmode", "polygonsides", "pi", "deg"];
+const READ_BY_ALL: [&str; 7] =
+    ["integrationmode", "polygonsides", "pi", "deg", "tolerance", "maxevaluations", "uncertainty"];
 
 /// One warning for each variable that is computed in vain.
 pub(super) fn warnings(job: &Job) -> Vec<Diagnostic> {

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, f64::consts::FRAC_PI_2, fmt::Write as _, sync::Arc};
 
-use mist_format::number::general;
+use mist_format::{Diagnostic, number::general};
 use rayon::prelude::*;
 use scattering::{Direction, Incidence, Mueller, Notice, ParamError};
 
@@ -13,12 +13,15 @@ use super::{
 use crate::{
     Control, Failure, Job,
     fault::Fault,
-    integrate::{contract, integrate, samples},
+    integrate::{Sample, adaptive_samples, contract, integrate, samples},
     limits::Meter,
     parameters::Fingerprint,
-    region::Region,
-    sampling::{Layout, LayoutKey},
-    step::{Integral, Step},
+    region::{Region, RegionError},
+    sampling::{
+        Layout, LayoutKey,
+        adaptive::{self, AdaptiveError, Demand},
+    },
+    step::{Evaluated, Integral, Step},
 };
 
 /// Bytes of all layouts kept.
@@ -42,15 +45,63 @@ struct Key {
 enum Aperture {
     /// One direction: the bits of θ and φ.
     Point(u64, u64),
-    /// The layout with this number.
+    /// The layout, or the adaptive aperture, with this number.
     Area(u64),
 }
+
+/// The directions of an aperture, to be shared.
+type Numbered = (u64, Place);
 
 /// The directions of a piece of work.
 #[derive(Clone)]
 enum Place {
     Point(f64, f64),
     Area(Arc<Layout>),
+    Adaptive(Arc<(Region, Demand)>),
+}
+
+impl Place {
+    /// Where `integral` collects light, unless that is one direction.
+    fn area(integral: &Integral) -> Result<Self, RegionError> {
+        Ok(match integral.demand {
+            Some(demand) => Self::Adaptive(Arc::new((integral.region.clone(), demand))),
+            None => Self::Area(Arc::new(Layout::new(&integral.region, &integral.sampling)?)),
+        })
+    }
+
+    fn bytes(&self) -> usize {
+        match self {
+            Self::Area(layout) => layout.bytes(),
+            Self::Point(..) | Self::Adaptive(_) => size_of::<(Region, Demand)>(),
+        }
+    }
+}
+
+/// A Mueller integral that was computed.
+#[derive(Clone)]
+struct Found {
+    matrix: Mueller,
+    /// The error of each element, of adaptive integrals.
+    error: Option<Arc<Mueller>>,
+}
+
+impl Found {
+    fn evaluated(&self, integral: &Integral) -> Evaluated {
+        let (pol, inpol) = (&integral.pol, &integral.inpol);
+        let error = match (&self.error, integral.demand) {
+            (Some(error), _) => adaptive::contracted_error(error, pol, inpol),
+            (None, Some(_)) => 0.0,
+            (None, None) => f64::NAN,
+        };
+        Evaluated { value: contract(&self.matrix, pol, inpol), error }
+    }
+}
+
+/// Why a piece of work has no result.
+enum Undone {
+    Parameter(ParamError),
+    Adaptive(AdaptiveError),
+    Stopped,
 }
 
 /// A Mueller integral to be computed.
@@ -68,9 +119,9 @@ pub(crate) struct Shared<'a> {
     job: &'a Job,
     control: &'a Control,
     models: Models,
-    layouts: Kept<LayoutKey, (u64, Arc<Layout>)>,
+    layouts: Kept<LayoutKey, Numbered>,
     next_layout: u64,
-    integrals: Kept<Key, Mueller>,
+    integrals: Kept<Key, Found>,
     met: BTreeSet<Notice>,
 }
 
@@ -92,25 +143,24 @@ impl<'a> Shared<'a> {
         &mut self,
         block: &[Step],
         meter: &mut Meter<'_>,
-    ) -> Result<Vec<Vec<f64>>, Failure> {
+    ) -> Result<Vec<Vec<Evaluated>>, Failure> {
         let layouts = self.lay_out(block)?;
-        let mut known: Map<Key, Mueller> = Map::default();
+        let mut known: Map<Key, Found> = Map::default();
         let mut work: Vec<Work> = Vec::new();
         let mut keys = Vec::with_capacity(block.len());
         for (at, step) in block.iter().enumerate() {
             keys.push(self.keys(at, step, &layouts, &mut known, &mut work));
         }
         meter.add(work.iter().map(Work::evaluations).sum()).map_err(Failure::Limit)?;
-        self.do_all(block, work, &mut known)?;
-        let value = |(integral, key): (&Integral, &Key)| {
-            contract(&known[key], &integral.pol, &integral.inpol)
-        };
+        let spent = self.do_all(block, work, &mut known)?;
+        meter.add(spent).map_err(Failure::Limit)?;
+        let value = |(integral, key): (&Integral, &Key)| known[key].evaluated(integral);
         let both = block.iter().zip(&keys);
         Ok(both.map(|(step, keys)| step.integrals.iter().zip(keys).map(value).collect()).collect())
     }
 
     /// The layout of every area in the block, made in parallel where it is new.
-    fn lay_out(&mut self, block: &[Step]) -> Result<Map<LayoutKey, (u64, Arc<Layout>)>, Failure> {
+    fn lay_out(&mut self, block: &[Step]) -> Result<Map<LayoutKey, Numbered>, Failure> {
         let mut layouts = Map::default();
         let mut wanted: Vec<(LayoutKey, (usize, usize))> = Vec::new();
         let mut seen = BTreeSet::new();
@@ -119,7 +169,7 @@ impl<'a> Shared<'a> {
                 if matches!(integral.region, Region::Differential { .. }) {
                     continue;
                 }
-                let key = LayoutKey::new(&integral.region, &integral.sampling);
+                let key = integral.layout_key();
                 if layouts.contains_key(&key) || seen.contains(&key) {
                     continue;
                 }
@@ -133,16 +183,13 @@ impl<'a> Shared<'a> {
         }
         let made: Vec<_> = wanted
             .par_iter()
-            .map(|(_, (at, number))| {
-                let integral = &block[*at].integrals[*number];
-                Layout::new(&integral.region, &integral.sampling)
-            })
+            .map(|(_, (at, number))| Place::area(&block[*at].integrals[*number]))
             .collect();
-        for ((key, wanted_by), layout) in wanted.into_iter().zip(made) {
-            let layout = layout.map_err(|error| {
+        for ((key, wanted_by), place) in wanted.into_iter().zip(made) {
+            let place = place.map_err(|error| {
                 self.failure(block, wanted_by, |n| self.job.region_fault(n, &error))
             })?;
-            let numbered = (self.next_layout, Arc::new(layout));
+            let numbered = (self.next_layout, place);
             self.next_layout += 1;
             self.layouts.insert(key.clone(), numbered.clone(), numbered.1.bytes());
             layouts.insert(key, numbered);
@@ -155,8 +202,8 @@ impl<'a> Shared<'a> {
         &mut self,
         at: usize,
         step: &Step,
-        layouts: &Map<LayoutKey, (u64, Arc<Layout>)>,
-        known: &mut Map<Key, Mueller>,
+        layouts: &Map<LayoutKey, Numbered>,
+        known: &mut Map<Key, Found>,
         work: &mut Vec<Work>,
     ) -> Vec<Key> {
         if step.integrals.is_empty() {
@@ -169,10 +216,9 @@ impl<'a> Shared<'a> {
                 Region::Differential { center: (theta, phi) } => {
                     (Aperture::Point(theta.to_bits(), phi.to_bits()), Place::Point(*theta, *phi))
                 }
-                region => {
-                    let key = LayoutKey::new(region, &integral.sampling);
-                    let (id, layout) = &layouts[&key];
-                    (Aperture::Area(*id), Place::Area(layout.clone()))
+                _ => {
+                    let (id, place) = &layouts[&integral.layout_key()];
+                    (Aperture::Area(*id), place.clone())
                 }
             };
             let key = Key {
@@ -186,45 +232,49 @@ impl<'a> Shared<'a> {
                 continue;
             }
             if let Some(found) = self.integrals.get(&key) {
-                known.insert(key, *found);
+                known.insert(key, found.clone());
                 continue;
             }
-            known.insert(key, Mueller::ZERO);
+            known.insert(key, Found { matrix: Mueller::ZERO, error: None });
             let incidence = Incidence::new(step.theta_i, step.rotation);
             work.push(Work { key, cell: cell.clone(), incidence, place, wanted_by: (at, number) });
         }
         keys
     }
 
-    /// Does the work and puts what came out into `known`.
+    /// Does the work and puts what came out into `known`; says how many evaluations of the model
+    /// it cost beyond those that were known before.
     fn do_all(
         &mut self,
         block: &[Step],
         work: Vec<Work>,
-        known: &mut Map<Key, Mueller>,
-    ) -> Result<(), Failure> {
+        known: &mut Map<Key, Found>,
+    ) -> Result<f64, Failure> {
         let stop = || self.control.is_cancelled();
         let basis = self.job.basis;
-        let done: Vec<Result<Option<Mueller>, ParamError>> =
+        let done: Vec<Result<(Found, u64), Undone>> =
             work.par_iter().map(|piece| piece.compute(basis, &stop)).collect();
+        let mut spent = 0.0;
         for (piece, result) in work.iter().zip(done) {
-            match result {
-                Ok(Some(integral)) => {
-                    known.insert(piece.key, integral);
-                    self.integrals.insert(piece.key, integral, 1);
+            let fault = match result {
+                Ok((found, evaluations)) => {
+                    spent += evaluations as f64;
+                    known.insert(piece.key, found.clone());
+                    self.integrals.insert(piece.key, found, 1);
+                    None
                 }
-                Ok(None) => return Err(Failure::Cancelled),
-                Err(error) => {
-                    return Err(
-                        self.failure(block, piece.wanted_by, |_| self.job.parameter_fault(&error))
-                    );
-                }
+                Err(Undone::Stopped) => return Err(Failure::Cancelled),
+                Err(Undone::Parameter(error)) => Some(self.job.parameter_fault(&error)),
+                Err(Undone::Adaptive(error)) => Some(self.adaptive(piece.wanted_by.1, &error)),
+            };
+            if let Some(fault) = fault {
+                return Err(self.failure(block, piece.wanted_by, |_| fault));
             }
             if let Ok(built) = piece.cell.get() {
                 self.met.extend(&built.met);
             }
         }
-        if self.control.is_cancelled() { Err(Failure::Cancelled) } else { Ok(()) }
+        if self.control.is_cancelled() { Err(Failure::Cancelled) } else { Ok(spent) }
     }
 
     fn failure(
@@ -234,6 +284,23 @@ impl<'a> Shared<'a> {
         fault: impl FnOnce(usize) -> Fault,
     ) -> Failure {
         crate::run::at_step(block[at].index, fault(number))
+    }
+
+    /// The fault of an adaptive integral that has no value.
+    fn adaptive(&self, number: usize, error: &AdaptiveError) -> Fault {
+        let plan = &self.job.integrals[number];
+        let help = match error {
+            AdaptiveError::Region(error) => return self.job.region_fault(number, error),
+            AdaptiveError::Budget { .. } => {
+                "make tolerance larger or maxevaluations (1e7 unless VARIABLES says otherwise) \
+                 larger, or integrate over a grid, integrationmode = 2"
+            }
+            AdaptiveError::NotFinite | AdaptiveError::Stopped => {
+                "leave the direction of the mirror out with an ANNULUS, or check the parameters"
+            }
+        };
+        let message = format!("{}: {error}", plan.name);
+        Box::new(Diagnostic::error("integral/tolerance", plan.name.span(), message).help(help))
     }
 
     /// The defects met since the last call.
@@ -247,54 +314,81 @@ impl<'a> Shared<'a> {
         let cell = self.models.cell(&step.parameters);
         let Ok(built) = cell.get() else { return text };
         let incidence = Incidence::new(step.theta_i, step.rotation);
+        let (model, basis) = (&built.model, self.job.basis);
         for integral in &step.integrals {
-            // The region was laid out before without an error.
-            let Ok(layout) = Layout::new(&integral.region, &integral.sampling) else { continue };
             let light = (&integral.pol, &integral.inpol);
-            samples(&built.model, &incidence, self.job.basis, &layout, light, &mut |sample| {
+            let mut write = |sample: Sample| {
                 let [x, y, z] = sample.xyz();
                 let _ = write!(text, "{}", step.index);
                 for value in [sample.theta, sample.phi, x, y, z, sample.brdf] {
                     let _ = write!(text, "\t{}", general(value, SAMPLE_DIGITS));
                 }
                 text.push('\n');
-            });
+            };
+            // The region was integrated over before without an error.
+            match integral.demand {
+                Some(demand) => {
+                    let region = (&integral.region, &demand);
+                    adaptive_samples(model, &incidence, basis, region, light, &mut write);
+                }
+                None => {
+                    let layout = Layout::new(&integral.region, &integral.sampling);
+                    let Ok(layout) = layout else { continue };
+                    samples(model, &incidence, basis, &layout, light, &mut write);
+                }
+            }
         }
         text
     }
 }
 
 impl Work {
-    /// How many evaluations of the model it costs.
+    /// How many evaluations of the model it costs, as far as that is known before.
     fn evaluations(&self) -> f64 {
         match &self.place {
             Place::Point(..) => 1.0,
             Place::Area(layout) => layout.directions() as f64,
+            Place::Adaptive(_) => 0.0,
         }
     }
 
-    /// The Mueller integral, or nothing if it was stopped.
+    /// The Mueller integral, and the evaluations that were not known before.
     fn compute(
         &self,
         basis: scattering::Basis,
         stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Mueller>, ParamError> {
+    ) -> Result<(Found, u64), Undone> {
+        let exact = |matrix| (Found { matrix, error: None }, 0);
         let below = |theta: f64| theta.abs() >= FRAC_PI_2;
+        let built = || self.cell.get().map_err(|error| Undone::Parameter(error.clone()));
         match &self.place {
             // NIST's program does not ask the model here either, so its errors do not matter.
             Place::Point(theta, _) if below(self.incidence.theta) || below(*theta) => {
-                Ok(Some(Mueller::ZERO))
+                Ok(exact(Mueller::ZERO))
             }
             Place::Point(theta, phi) => {
-                let built = self.cell.get().map_err(Clone::clone)?;
                 let direction = Direction::new(*theta, *phi);
                 let mut out = [Mueller::ZERO];
-                built.model.evaluate(&self.incidence, &[direction], basis, &mut out);
-                Ok(Some(out[0] * direction.cos))
+                built()?.model.evaluate(&self.incidence, &[direction], basis, &mut out);
+                Ok(exact(out[0] * direction.cos))
             }
             Place::Area(layout) => {
-                let built = self.cell.get().map_err(Clone::clone)?;
-                Ok(integrate(&built.model, &self.incidence, basis, layout, stop))
+                let model = &built()?.model;
+                let matrix = integrate(model, &self.incidence, basis, layout, stop);
+                matrix.map(exact).ok_or(Undone::Stopped)
+            }
+            Place::Adaptive(aperture) => {
+                let (region, demand) = &**aperture;
+                let model = &built()?.model;
+                adaptive::integrate(model, &self.incidence, basis, region, demand, stop)
+                    .map(|found| {
+                        let (matrix, error) = (found.matrix, Some(Arc::new(found.error)));
+                        (Found { matrix, error }, found.evaluations)
+                    })
+                    .map_err(|error| match error {
+                        AdaptiveError::Stopped => Undone::Stopped,
+                        other => Undone::Adaptive(other),
+                    })
             }
         }
     }

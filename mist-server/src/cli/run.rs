@@ -22,8 +22,10 @@ use crate::{
     products::Product,
     progress::Progress,
     report::{self, MessageFormat},
+    shard::Shard,
 };
 
+mod shard;
 mod sink;
 
 use sink::DiskSink;
@@ -38,7 +40,8 @@ use sink::DiskSink;
 Examples:
   mist run paint.mist
   mist run --compat --out nist old/*.mist
-  mist run --job glossy --threads 4 paint.mist")]
+  mist run --job glossy --threads 4 paint.mist
+  mist run --shard 3/16 paint.mist    the third of 16 parts; see `mist merge`")]
 pub(super) struct Args {
     /// Programs; with --compat a second name that is no file names the job, as NIST's program
     /// has it.
@@ -57,6 +60,10 @@ pub(super) struct Args {
     /// Folder for the results.
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
+    /// Run part K of N of the steps, into JOB.K-of-N; the same command goes on after an
+    /// interruption. `mist merge` puts the parts together.
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
     /// Seed of the Monte Carlo modes.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -144,12 +151,18 @@ fn run_one(args: &Args, program: &Path, mut control: Control) -> Result<Fate, St
     let progress = Progress::new(&options.job);
     let bar = progress.clone();
     control.progress = Some(Box::new(move |part| bar.set(part)));
-    let done = run_job(&job, &args.out, &control);
+    let done = match args.shard {
+        Some(shard) => shard::run(&job, (&options, &source.text), shard, &args.out, &control),
+        None => run_job(&job, &args.out, &control).map(|(summary, files)| {
+            let said = describe(&options.job, &summary, &files);
+            (summary, said)
+        }),
+    };
     progress.finish();
     match done {
-        Ok((summary, files)) => {
+        Ok((summary, said)) => {
             note(&source.name(), &summary);
-            print(&describe(&options.job, &summary, &files))?;
+            print(&said)?;
             Ok(Fate::Good)
         }
         Err(RunError::Engine(Failure::Program(diagnostics))) => {
@@ -162,7 +175,8 @@ fn run_one(args: &Args, program: &Path, mut control: Control) -> Result<Fate, St
         }
         Err(error) => {
             report::say(&format!("error: {}: {error}", source.name()));
-            Ok(Fate::Failed)
+            let is_refused = matches!(error, RunError::Refused(_));
+            Ok(if is_refused { Fate::Refused } else { Fate::Failed })
         }
     }
 }
@@ -174,6 +188,8 @@ enum RunError {
     Engine(#[from] Failure),
     #[error("{0}")]
     Write(String),
+    #[error("{0}")]
+    Refused(String),
 }
 
 /// A file that was written, and what it is.

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mist_engine::{Finished, Journal};
+use mist_engine::{Evaluated, Finished, Journal};
 
 use crate::store::Store;
 
@@ -89,19 +89,24 @@ impl Journal for Ledger<'_> {
     }
 }
 
-/// The number of values, the values, the samples.
+/// The number of integrals, their values and errors, the samples.
 fn encode(step: &Finished) -> Vec<u8> {
     let count = step.values.len() as u64;
-    let values = step.values.iter().flat_map(|value| value.to_le_bytes());
+    let pairs = step.values.iter().flat_map(|integral| [integral.value, integral.error]);
+    let values = pairs.flat_map(f64::to_le_bytes);
     count.to_le_bytes().into_iter().chain(values).chain(step.samples.bytes()).collect()
 }
 
 fn decode(bytes: &[u8]) -> Option<Finished> {
     let (count, rest) = bytes.split_at_checked(NUMBER)?;
     let count = usize::try_from(u64::from_le_bytes(count.try_into().ok()?)).ok()?;
-    let (values, samples) = rest.split_at_checked(count.checked_mul(NUMBER)?)?;
-    let value = |bytes: &[u8]| bytes.try_into().ok().map(f64::from_le_bytes);
-    let values: Option<Vec<f64>> = values.chunks(NUMBER).map(value).collect();
+    let (values, samples) = rest.split_at_checked(count.checked_mul(2 * NUMBER)?)?;
+    let number = |bytes: &[u8]| bytes.try_into().ok().map(f64::from_le_bytes);
+    let integral = |bytes: &[u8]| {
+        let (value, error) = bytes.split_at_checked(NUMBER)?;
+        Some(Evaluated { value: number(value)?, error: number(error)? })
+    };
+    let values: Option<Vec<Evaluated>> = values.chunks(2 * NUMBER).map(integral).collect();
     Some(Finished { values: values?, samples: String::from_utf8(samples.to_vec()).ok()? })
 }
 
@@ -112,11 +117,17 @@ mod tests {
     #[test]
     fn a_step_comes_back_to_the_bit() {
         let step = Finished {
-            values: vec![0.1 + 0.2, -0.0, f64::INFINITY, f64::from_bits(1)],
+            values: vec![
+                Evaluated { value: 0.1 + 0.2, error: -0.0 },
+                Evaluated { value: f64::INFINITY, error: f64::from_bits(1) },
+            ],
             samples: "0\t1\n".into(),
         };
         let back = decode(&encode(&step)).unwrap();
-        let bits = |step: &Finished| step.values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let bits = |step: &Finished| {
+            let pairs = step.values.iter().map(|x| (x.value.to_bits(), x.error.to_bits()));
+            pairs.collect::<Vec<_>>()
+        };
         assert_eq!((bits(&back), back.samples), (bits(&step), step.samples));
         assert_eq!(decode(&[1, 0]), None);
         assert_eq!(decode(&u64::MAX.to_le_bytes()), None);

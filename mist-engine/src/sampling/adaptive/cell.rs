@@ -3,7 +3,7 @@
 use glam::DVec3;
 use scattering::Mueller;
 
-use super::{Estimate, Integrand, rays::Rays};
+use super::{Measured, integrand::Integrand, rays::Rays};
 
 /// A rectangle [s₀, s₁] × [u₀, u₁] of the unit square of one interval of one slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,8 +60,8 @@ impl Cell {
         [Self { u: (self.u.0, middle), ..self }, Self { u: (middle, self.u.1), ..self }]
     }
 
-    /// The integral over the cell with its error, and whether the error is one along p.
-    pub(super) fn measure(&self, rays: &Rays, integrand: &Integrand<'_>) -> (Estimate, bool) {
+    /// The integral over the cell with its error.
+    pub(super) fn measure(self, rays: &Rays, integrand: &Integrand<'_>) -> Measured {
         let (at, jacobian) = self.nodes(rays);
         let mut values = [Mueller::ZERO; NODES];
         integrand.values(&at, &mut values);
@@ -69,11 +69,11 @@ impl Cell {
             // Directions of no weight lie on the edge of the region, at worst on the horizon.
             *value = if factor == 0.0 { Mueller::ZERO } else { *value * factor };
         }
-        judge(&values)
+        judge(self, &values)
     }
 
     /// The directions of the nodes, and the solid angle per area of [−1, 1]².
-    fn nodes(&self, rays: &Rays) -> ([DVec3; NODES], [f64; NODES]) {
+    pub(super) fn nodes(&self, rays: &Rays) -> ([DVec3; NODES], [f64; NODES]) {
         let (mut at, mut jacobian) = ([DVec3::Z; NODES], [0.0; NODES]);
         let half = |(from, to): (f64, f64)| (0.5 * (from + to), 0.5 * (to - from));
         let ((s, ds), (u, du)) = (half(self.s), half(self.u));
@@ -89,29 +89,46 @@ impl Cell {
     }
 }
 
-/// Integral and error from the values at the nodes, p slow and t fast, and whether the error is
-/// one along p.
-fn judge(values: &[Mueller; NODES]) -> (Estimate, bool) {
-    let mut estimate = Estimate { evaluations: NODES as u64, ..Estimate::default() };
+/// Integral and error from the values at the nodes, p slow and t fast.
+fn judge(cell: Cell, values: &[Mueller; NODES]) -> Measured {
+    let [mut best, mut gauss_p, mut gauss_t] = [Mueller::ZERO; 3];
+    for (i, row) in values.chunks_exact(SIDE).enumerate() {
+        let [mut kronrod, mut gauss] = [Mueller::ZERO; 2];
+        for (j, value) in row.iter().enumerate() {
+            kronrod += *value * KRONROD[j];
+            gauss += *value * GAUSS[j];
+        }
+        best += kronrod * KRONROD[i];
+        gauss_p += kronrod * GAUSS[i];
+        gauss_t += gauss * KRONROD[i];
+    }
+    let spread = spread(values, &(best * 0.25));
+    let mut error = Mueller::ZERO;
     let (mut worst_p, mut worst_t) = (0.0_f64, 0.0_f64);
     for row in 0..4 {
         for column in 0..4 {
-            let value = |k: usize| values[k].0[row][column];
-            let rule = |p: &[f64; SIDE], t: &[f64; SIDE]| -> f64 {
-                (0..NODES).map(|k| p[k / SIDE] * t[k % SIDE] * value(k)).sum()
-            };
-            let best = rule(&KRONROD, &KRONROD);
-            let (p, t) =
-                ((rule(&GAUSS, &KRONROD) - best).abs(), (rule(&KRONROD, &GAUSS) - best).abs());
-            let spread: f64 = (0..NODES)
-                .map(|k| KRONROD[k / SIDE] * KRONROD[k % SIDE] * (value(k) - 0.25 * best).abs())
-                .sum();
-            estimate.matrix.0[row][column] = best;
-            estimate.error.0[row][column] = sharpened(p, spread) + sharpened(t, spread);
+            let of = |m: &Mueller| m.0[row][column];
+            let (p, t) = ((of(&gauss_p) - of(&best)).abs(), (of(&gauss_t) - of(&best)).abs());
+            error.0[row][column] = sharpened(p, of(&spread)) + sharpened(t, of(&spread));
             (worst_p, worst_t) = (worst_p.max(p), worst_t.max(t));
         }
     }
-    (estimate, worst_p > worst_t)
+    Measured { cell, matrix: best, error, along_p: worst_p > worst_t }
+}
+
+/// The integral of the distance from the `mean` value.
+fn spread(values: &[Mueller; NODES], mean: &Mueller) -> Mueller {
+    let mut sum = Mueller::ZERO;
+    for (k, value) in values.iter().enumerate() {
+        let weight = KRONROD[k / SIDE] * KRONROD[k % SIDE];
+        for row in 0..4 {
+            for column in 0..4 {
+                let distance = (value.0[row][column] - mean.0[row][column]).abs();
+                sum.0[row][column] += weight * distance;
+            }
+        }
+    }
+    sum
 }
 
 /// The error of the better rule from the disagreement of the two.

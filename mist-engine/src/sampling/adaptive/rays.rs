@@ -5,22 +5,26 @@
 //! the horizon, and the edges of polygons, which lie in planes that contain the normal of the
 //! projection. So the ends of the intervals have closed forms, and so have the azimuths at which
 //! their number changes: corners, and rays that touch a circle.
+//!
+//! Rims of spots, across which the integrand jumps, end intervals too.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::cell::Cell;
+use scattering::models::Spot;
+
+use super::{cell::Cell, peaks::Peak};
 use crate::region::{Polygon, Region, RegionError, above_horizon, refuse_crossing, unit};
 
-/// Narrowest lobe around the pole that looks wide along a ray, rad.
-const NARROW: f64 = 1e-4;
-
-/// Longest first cell along a ray, in w, where t = NARROW sinh w.
-const LONGEST: f64 = 2.6;
+/// Longest first cell along a ray, in w, where t = ε sinh w.
+const LONGEST: f64 = 1.3;
 
 /// Widest slice, rad.
 const WIDEST: f64 = FRAC_PI_2;
+
+/// Cells towards a peak, at most: 14 halvings both ways need a few hundred.
+const MOST_FIRST: usize = 20_000;
 
 /// Shorter intervals and slices are left out, rad.
 const TINY: f64 = 1e-13;
@@ -47,7 +51,11 @@ pub(super) struct Rays {
     pole: DVec3,
     /// Azimuth 0 and π/2 around the pole.
     across: (DVec3, DVec3),
+    /// What counts as near to the pole, rad: ε of t = ε sinh w.
+    near: f64,
+    /// The edges of the region, then the rims of spots.
     circles: Vec<Circle>,
+    edges: usize,
     inside: Inside,
     slices: Vec<(f64, f64)>,
 }
@@ -57,6 +65,7 @@ pub(super) struct Rays {
 pub(super) struct Ray {
     pole: DVec3,
     across: DVec3,
+    near: f64,
     w: (f64, f64),
     /// dp/ds.
     per_s: f64,
@@ -67,25 +76,43 @@ impl Ray {
     pub(super) fn at(&self, u: f64) -> (DVec3, f64) {
         let length = self.w.1 - self.w.0;
         let w = self.w.0 + length * u;
-        let (sin, cos) = (NARROW * w.sinh()).sin_cos();
+        let (e, near) = (w.exp(), 0.5 * self.near);
+        // A second exponential for sinh w would cost as much as a facet; where cancellation hurts,
+        // w has its own.
+        let sinh = if w < 0.5 { 2.0 * near * w.sinh() } else { near * (e - 1.0 / e) };
+        let (sin, cos) = sinh.sin_cos();
         let v = self.pole * cos + self.across * sin;
-        (v, sin * NARROW * w.cosh() * length * self.per_s)
+        (v, sin * near * (e + 1.0 / e) * length * self.per_s)
     }
 }
 
 impl Rays {
-    /// The region as seen from `pole`, a unit vector not below the horizon.
-    pub(super) fn new(region: &Region, pole: DVec3) -> Result<Self, RegionError> {
+    /// The region as seen from `center`, which is not below the horizon, cut by `spots`.
+    pub(super) fn new(region: &Region, center: Peak, spots: &[Spot]) -> Result<Self, RegionError> {
+        let pole = center.at;
         let q = pole.any_orthonormal_vector();
-        let (circles, inside, corners) = boundary(&region.ordered())?;
+        let (mut circles, inside, mut corners) = boundary(&region.ordered())?;
+        let edges = circles.len();
+        for spot in spots {
+            let rim = Circle { normal: spot.axis, cos: spot.half_angle.cos() };
+            corners.extend(circles.iter().flat_map(|circle| common_points(circle, &rim)));
+            circles.push(rim);
+        }
+        let across = (q, pole.cross(q));
         let mut rays =
-            Self { pole, across: (q, pole.cross(q)), circles, inside, slices: Vec::new() };
+            Self { pole, across, near: center.width, circles, edges, inside, slices: Vec::new() };
         rays.slices = rays.cut(&corners);
         Ok(rays)
     }
 
-    /// The first cells: all intervals of all slices, cut into pieces along the rays.
-    pub(super) fn first_cells(&self) -> Vec<Cell> {
+    /// The first cells: all intervals of all slices, cut into pieces along the rays and towards
+    /// `peaks`.
+    pub(super) fn first_cells(&self, peaks: &[Peak]) -> Vec<Cell> {
+        let cells = self.even_cells();
+        peaks.iter().fold(cells, |cells, peak| self.towards(peak, cells))
+    }
+
+    fn even_cells(&self) -> Vec<Cell> {
         let mut cells = Vec::new();
         for slice in 0..self.slices.len() {
             let lengths = [0.1, 0.5, 0.9].map(|s| self.lengths(slice, s));
@@ -103,9 +130,40 @@ impl Rays {
         cells
     }
 
+    /// The cells with those near to `peak` halved until they are not wider than the peak, and
+    /// else than their distance from it.
+    fn towards(&self, peak: &Peak, mut cells: Vec<Cell>) -> Vec<Cell> {
+        let mut done = Vec::new();
+        while let Some(cell) = cells.pop() {
+            let (middle, along_p, along_t) = self.extent(&cell);
+            let size = along_p.max(along_t);
+            let is_near = middle.distance(peak.at) < along_p + along_t;
+            if is_near && size > peak.width && done.len() + cells.len() < MOST_FIRST {
+                cells.extend(cell.halves(along_p > along_t));
+            } else {
+                done.push(cell);
+            }
+        }
+        done
+    }
+
+    /// The middle of a cell and how far it reaches along p and along t.
+    fn extent(&self, cell: &Cell) -> (DVec3, f64, f64) {
+        let at = |s: f64, u: f64| self.ray(cell.slice, cell.interval, s).at(u).0;
+        let (s, u) = (0.5 * (cell.s.0 + cell.s.1), 0.5 * (cell.u.0 + cell.u.1));
+        let along_p = at(cell.s.0, u).distance(at(cell.s.1, u));
+        (at(s, u), along_p, at(s, cell.u.0).distance(at(s, cell.u.1)))
+    }
+
     fn lengths(&self, slice: usize, s: f64) -> Vec<f64> {
         let (p, _) = self.azimuth(slice, s);
-        self.intervals(p).into_iter().map(|(a, b)| stretched(b) - stretched(a)).collect()
+        let length = |(a, b)| self.stretched(b) - self.stretched(a);
+        self.intervals(p).into_iter().map(length).collect()
+    }
+
+    /// w of t.
+    fn stretched(&self, t: f64) -> f64 {
+        (t / self.near).asinh()
     }
 
     /// The azimuth at s in 0..1 of a slice, and dp/ds.
@@ -122,8 +180,8 @@ impl Rays {
     pub(super) fn ray(&self, slice: usize, interval: usize, s: f64) -> Ray {
         let (p, per_s) = self.azimuth(slice, s);
         let (a, b) = self.intervals(p).get(interval).copied().unwrap_or((0.0, 0.0));
-        let w = (stretched(a), stretched(b));
-        Ray { pole: self.pole, across: self.direction(p), w, per_s }
+        let w = (self.stretched(a), self.stretched(b));
+        Ray { pole: self.pole, across: self.direction(p), near: self.near, w, per_s }
     }
 
     fn direction(&self, p: f64) -> DVec3 {
@@ -133,24 +191,25 @@ impl Rays {
     /// The intervals of t along the ray of azimuth p that belong to the region, in order.
     fn intervals(&self, p: f64) -> Vec<(f64, f64)> {
         let across = self.direction(p);
-        let mut ends = vec![0.0, PI];
-        for circle in &self.circles {
+        let mut ends = vec![(0.0, false), (PI, false)];
+        for (k, circle) in self.circles.iter().enumerate() {
             let (a, b) = (self.pole.dot(circle.normal), across.dot(circle.normal));
             let (middle, half) = (b.atan2(a), (circle.cos / a.hypot(b)).acos());
             // Half is NaN where the ray misses the circle.
             let crossings = [middle - half, middle + half].map(|t| t.rem_euclid(TAU));
-            ends.extend(crossings.into_iter().filter(|t| *t > 0.0 && *t < PI));
+            let ahead = crossings.into_iter().filter(|t| *t > 0.0 && *t < PI);
+            ends.extend(ahead.map(|t| (t, k >= self.edges)));
         }
-        ends.sort_by(f64::total_cmp);
+        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut found: Vec<(f64, f64)> = Vec::new();
         for pair in ends.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
+            let ((a, is_rim), (b, _)) = (pair[0], pair[1]);
             let t = 0.5 * (a + b);
             if b - a < TINY || !self.holds(self.pole * t.cos() + across * t.sin()) {
                 continue;
             }
             match found.last_mut() {
-                Some(last) if a - last.1 < TINY => last.1 = b,
+                Some(last) if a - last.1 < TINY && !is_rim => last.1 = b,
                 _ => found.push((a, b)),
             }
         }
@@ -196,11 +255,6 @@ impl Rays {
         let all = [half, -half, PI - half, half - PI];
         all.map(|p| (y.atan2(x) + p).rem_euclid(TAU)).to_vec()
     }
-}
-
-/// w of t.
-fn stretched(t: f64) -> f64 {
-    (t / NARROW).asinh()
 }
 
 /// A slice in parts that are not too wide.

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use scattering::{Mode, Node, models};
 
 use super::*;
+use crate::region::Angles;
 
 const DEMAND: Demand = Demand { tolerance: 1e-9, budget: 10_000_000 };
 
@@ -122,7 +123,7 @@ fn a_budget_that_does_not_suffice_is_an_error() {
     let incidence = Incidence::new(0.5, 0.0);
     let refused = integrate(&rough, &incidence, Basis::Psps, &Region::Hemi, &demand, &|| false);
     match refused {
-        Err(AdaptiveError::Budget { reached, evaluations }) => {
+        Err(AdaptiveError::Budget { reached, evaluations, .. }) => {
             assert!(reached > 1e-12 && evaluations <= 3_000);
         }
         other => panic!("{other:?}"),

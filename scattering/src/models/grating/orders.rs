@@ -14,7 +14,7 @@ use num_complex::Complex64;
 use crate::{
     Direction, Incidence, Mueller, Node, ParamError, Side,
     grating::positive,
-    models::{Brdf, Common},
+    models::{Brdf, Common, Spot},
     rcw::{Structure, Wave},
 };
 
@@ -154,6 +154,12 @@ impl ConeModel {
 impl Brdf for ConeModel {
     fn common(&self) -> &Common {
         &self.common
+    }
+
+    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
+        let orders = self.orders(incidence);
+        let cones = orders.get_or_init(|| self.cones(incidence));
+        cones.iter().map(|cone| Spot { axis: cone.axis, half_angle: self.alpha }).collect()
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {

@@ -13,7 +13,7 @@
 use super::disk::{self, Beam, CONE, Point};
 use crate::{
     Basis, Direction, Incidence, Model, Mueller,
-    models::{self, Brdf, COMMON, Common},
+    models::{self, Brdf, COMMON, Common, Spot},
     spec::{Class, Family, Laws, Param, Spec},
 };
 
@@ -84,6 +84,10 @@ struct Work {
 impl Brdf for FiniteAperture {
     fn common(&self) -> &Common {
         &self.common
+    }
+
+    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
+        self.model.spots(incidence)
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {

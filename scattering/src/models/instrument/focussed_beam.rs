@@ -23,7 +23,7 @@ use super::{
 };
 use crate::{
     Basis, Defect, Direction, Incidence, Model, Mueller, ParamError,
-    models::{self, Brdf, COMMON, Common},
+    models::{self, Brdf, COMMON, Common, Spot},
     spec::{Class, Laws, Param, Spec},
 };
 
@@ -107,6 +107,10 @@ impl FocussedBeam {
 impl Brdf for FocussedBeam {
     fn common(&self) -> &Common {
         &self.common
+    }
+
+    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
+        self.model.spots(incidence)
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {

@@ -15,11 +15,12 @@
 
 use std::slice;
 
+use glam::DVec3;
 use num_complex::Complex64;
 
 use crate::{
     Basis, Direction, Incidence, Model, Mueller,
-    models::{self, Brdf, COMMON, Common},
+    models::{self, Brdf, COMMON, Common, Spot},
     optics::film::Films,
     spec::{Class, Family, Laws, Param, Spec},
     stack::Stack,
@@ -92,9 +93,37 @@ impl Transmit {
     }
 }
 
+impl Transmit {
+    /// The beam inside, for light that comes through the face, and the matrix of the face.
+    fn beam_inside(&self, incidence: &Incidence) -> (Incidence, Option<Mueller>) {
+        if !self.common.side.from_below() {
+            return (*incidence, None);
+        }
+        let (theta, tau) = self.cross(incidence.sin, incidence.cos);
+        (Incidence::new(theta, incidence.rotation), Some(tau))
+    }
+
+    /// A cone inside as it is seen outside, where its rim is no circle any more; none if it is
+    /// reflected totally.
+    fn outside(&self, spot: Spot) -> Option<Spot> {
+        let (x, y) = (self.index * spot.axis.x, self.index * spot.axis.y);
+        let cos = (1.0 - x * x - y * y).sqrt();
+        let half_angle = spot.half_angle * self.index * spot.axis.z / cos;
+        (half_angle < 1.0).then(|| Spot { axis: DVec3::new(x, y, cos), half_angle })
+    }
+}
+
 impl Brdf for Transmit {
     fn common(&self) -> &Common {
         &self.common
+    }
+
+    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
+        let spots = self.model.spots(&self.beam_inside(incidence).0);
+        if !self.common.side.to_below() {
+            return spots;
+        }
+        spots.into_iter().filter_map(|spot| self.outside(spot)).collect()
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
@@ -104,12 +133,7 @@ impl Brdf for Transmit {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        let (inner, into) = if self.common.side.from_below() {
-            let (theta, tau) = self.cross(incidence.sin, incidence.cos);
-            (Incidence::new(theta, incidence.rotation), Some(tau))
-        } else {
-            (*incidence, None)
-        };
+        let (inner, into) = self.beam_inside(incidence);
         if self.common.side.to_below() {
             let (directions, faces) = self.behind(directions);
             self.model.evaluate(&inner, &directions, Basis::Psps, out);

@@ -11,7 +11,7 @@
 use super::weighted::{Source, Weighted, source};
 use crate::{
     Direction, Incidence, Mueller, Node, ParamError,
-    models::{Brdf, COMMON, Common},
+    models::{Brdf, COMMON, Common, Spot},
     spec::{Class, Laws, Param, Spec},
 };
 
@@ -59,6 +59,10 @@ struct Coherent {
 impl Brdf for Coherent {
     fn common(&self) -> &Common {
         &self.sum.common
+    }
+
+    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
+        self.sum.spots(incidence)
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {

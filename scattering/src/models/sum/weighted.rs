@@ -8,7 +8,7 @@
 use crate::{
     Basis, Defect, Direction, Incidence, Jones, Mode, Mueller, Node, ParamError,
     geometry::beams,
-    models::{Brdf, Common},
+    models::{Brdf, Common, Spot},
     polarization::change_basis,
     spec::{Family, Param},
 };
@@ -124,6 +124,10 @@ impl Weighted {
 impl Brdf for Weighted {
     fn common(&self) -> &Common {
         &self.common
+    }
+
+    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
+        self.sources.iter().flat_map(|source| source.model.spots(incidence)).collect()
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {

@@ -1,0 +1,128 @@
+//! How wide the peaks of an integrand are, from a few evaluations around the likely places.
+//!
+//! Rings of radii r₀, 3r₀, 9r₀, … around a direction show how far the values have moved from
+//! those of the smallest ring. While the rings are small against everything that happens there,
+//! the change grows at least in proportion to the radius; where it grows no more, the ring is as
+//! large as a peak (or a hole) in the middle.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use scattering::Mueller;
+
+use super::integrand::Integrand;
+
+/// A direction around which the integrand changes within an angle `width`, radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Peak {
+    pub(super) at: DVec3,
+    pub(super) width: f64,
+}
+
+/// The smallest ring, rad: angles between directions are not known better than to 1e-8.
+const SMALLEST: f64 = 1e-7;
+
+/// Ratio of the radii of two rings.
+const RATIO: f64 = 3.0;
+
+/// The number of rings; the largest has a radius of 0.16 rad.
+const RINGS: usize = 14;
+
+/// Directions on a ring.
+const AROUND: usize = 3;
+
+/// Changes of less than this part of the largest value are rounding.
+const ROUNDING: f64 = 1e-8;
+
+/// A change that grows by less than this from a ring to the next has ended: √RATIO.
+const GROWTH: f64 = 1.7;
+
+/// The width of what is as smooth as the largest ring is wide.
+const SMOOTH: f64 = 0.3;
+
+/// The peaks of `integrand`, the narrowest first, and the number of evaluations.
+///
+/// The first one stands for the pole of coordinates and may be smooth; the others are peaks.
+pub(super) fn find(integrand: &Integrand<'_>) -> (Vec<Peak>, u64) {
+    let places = integrand.gathering();
+    let evaluations = (places.len() * RINGS * AROUND) as u64;
+    let mut peaks: Vec<Peak> = places.into_iter().map(|at| measured(integrand, at)).collect();
+    // The sort is stable: of equal ones the likeliest stays in front.
+    peaks.sort_by(|a, b| a.width.total_cmp(&b.width));
+    let first = peaks[0];
+    peaks.retain(|peak| *peak == first || peak.width < SMOOTH && peak.at != first.at);
+    peaks.dedup();
+    (peaks, evaluations)
+}
+
+fn measured(integrand: &Integrand<'_>, at: DVec3) -> Peak {
+    let rings: [[f64; AROUND]; RINGS] =
+        std::array::from_fn(|k| ring(integrand, at, SMALLEST * RATIO.powi(k as i32)));
+    Peak { at, width: width(&rings) }
+}
+
+/// The values for unpolarized light on the ring of radius `r` around `at`.
+fn ring(integrand: &Integrand<'_>, at: DVec3, r: f64) -> [f64; AROUND] {
+    let q = at.any_orthonormal_vector();
+    let (p, (sin, cos)) = (at.cross(q), r.sin_cos());
+    // An odd angle keeps the ring away from the planes of symmetry.
+    let angle = |k: usize| 0.4 + TAU * k as f64 / AROUND as f64;
+    let directions: [DVec3; AROUND] =
+        std::array::from_fn(|k| at * cos + (q * angle(k).cos() + p * angle(k).sin()) * sin);
+    let mut values = [Mueller::ZERO; AROUND];
+    integrand.values(&directions, &mut values);
+    // Directions below the horizon tell nothing.
+    std::array::from_fn(|k| if directions[k].z > 0.0 { values[k][(0, 0)] } else { f64::NAN })
+}
+
+/// The radius at which the change from the smallest ring ends.
+fn width(rings: &[[f64; AROUND]; RINGS]) -> f64 {
+    let values = || rings.iter().flatten().map(|x| x.abs()).filter(|x| x.is_finite());
+    let rounding = ROUNDING * values().fold(0.0, f64::max);
+    let middle: Vec<f64> = rings[0].iter().copied().filter(|x| x.is_finite()).collect();
+    let middle = middle.iter().sum::<f64>() / middle.len() as f64;
+    // NaN does not count: max takes the other one.
+    let change = |ring: &[f64; AROUND]| ring.iter().map(|x| (x - middle).abs()).fold(0.0, f64::max);
+    let mut last = change(&rings[0]);
+    for k in 1..RINGS {
+        let now = change(&rings[k]);
+        if last > rounding && now < GROWTH * last {
+            return SMALLEST * RATIO.powi(k as i32 - 1);
+        }
+        last = now;
+    }
+    SMOOTH
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rings(f: impl Fn(f64) -> f64) -> [[f64; AROUND]; RINGS] {
+        std::array::from_fn(|k| [f(SMALLEST * RATIO.powi(k as i32)); AROUND])
+    }
+
+    #[test]
+    fn peaks_of_all_shapes_show_their_widths() {
+        for w in [1e-6, 1e-4, 3e-3, 0.02] {
+            // A thousandth of the background is seen as well.
+            for height in [1e3, 1e-3] {
+                let gaussian = width(&rings(|r| 1.0 + height * (-r * r / (w * w)).exp()));
+                let cusp = width(&rings(|r| 1.0 + height * (-r / w).exp()));
+                let tails = width(&rings(|r| 1.0 + height / (1.0 + r * r / (w * w)).powf(1.5)));
+                for got in [gaussian, cusp, tails] {
+                    assert!(got > 0.3 * w && got < 6.0 * w, "{got} is not about {w}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_smooth_has_no_peak() {
+        let all: [fn(f64) -> f64; 4] =
+            [|_| 2.0, |r| 1.0 - 0.5 * r * r, |r| r.cos() + 0.3 * r, |_| 0.0];
+        for f in all {
+            assert_eq!(width(&rings(f)), SMOOTH);
+        }
+    }
+}

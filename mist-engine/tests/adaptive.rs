@@ -1,0 +1,8 @@
+//! Adaptive integrals: against another method, and as programs reach them.
+
+#[path = "adaptive/plane.rs"]
+mod plane;
+#[path = "adaptive/programs.rs"]
+mod programs;
+#[path = "adaptive/references.rs"]
+mod references;
