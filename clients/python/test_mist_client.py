@@ -22,7 +22,7 @@ VARIABLES:
   $reflectance.table = r.txt
 END
 VARY: FOR t FROM 0 TO 0.2 BY 0.1 END
-INTEGRALS: A = HEMI POL = (1,0,0,0) END END
+INTEGRALS: A = HEMI END END
 OUTPUTS: 1 r=A END
 FILES: results = r.dat listing = r.lst END
 """

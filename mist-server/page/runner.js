@@ -1,6 +1,6 @@
 // Runs programs as jobs of the service, with progress and cancellation.
 
-import { follow, jobText, start, stop } from "./api.js";
+import { Problem, follow, jobText, start, stop } from "./api.js";
 
 const ENDED = { done: "Done.", failed: "The run failed.", cancelled: "Cancelled." };
 
@@ -21,15 +21,18 @@ export class Runner {
     this.busy(true);
     this.progress.value = 0;
     this.status.textContent = "Sent …";
+    this.job = null;
     try {
       this.job = await start(request);
       const last = await follow(this.job, (state) => this.tell(state));
-      if (last.state === "done") this.results = await jobText(this.job, "results");
-      if (last.state === "failed") this.refused(last.error ?? last);
       this.status.textContent = ENDED[last.state];
-      this.finished(last);
+      if (last.state === "failed") throw new Problem(last.problem.status, last.problem);
+      if (last.state === "done") {
+        this.results = await jobText(this.job, "results");
+        this.finished();
+      }
     } catch (error) {
-      this.status.textContent = "Refused.";
+      if (!this.job) this.status.textContent = "Refused.";
       this.refused(error);
     } finally {
       this.busy(false);
