@@ -208,7 +208,7 @@ fn block(
 /// The blocks of a file: band, side, and the values `[outgoing][incident]`.
 pub type Block = (String, String, Vec<Vec<f64>>);
 
-/// Reads a file that [`write`] wrote.
+/// Reads a file that [`fn@write`] wrote.
 ///
 /// # Errors
 ///

@@ -56,8 +56,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "NM")]
     wavelengths: Option<String>,
     /// Nodes of the table. pbsdf: phi_d x theta_d x theta_h, or auto:PERCENT for the smallest grid
-    /// on which 95 % of the light is nearer than that [37x46x91]. bsdf: theta_i x side of an image
-    /// [24x64], or phi_i x theta_i x side [37x20x48]. Goniometer tables: degrees
+    /// on which 95 % of the light is nearer than that (37x46x91). bsdf: theta_i x side of an image
+    /// (24x64), or phi_i x theta_i x side (37x20x48). Goniometer tables: degrees
     /// [thetai=0:10:80,thetas=0:5:85,phis=0:10:180].
     #[arg(long, value_name = "GRID")]
     grid: Option<String>,
