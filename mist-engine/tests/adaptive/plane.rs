@@ -86,10 +86,10 @@ impl Plane {
         let horizon = Edge { normal: DVec3::Z, cos: 0.0 };
         let mut all = plane.edges.clone();
         all.push(horizon);
-        for edge in &plane.edges {
-            for other in &all {
+        for (k, edge) in plane.edges.iter().enumerate() {
+            for other in all.iter().enumerate().filter(|(m, _)| *m != k).map(|(_, other)| other) {
                 let side = |t: f64| other.side(edge.at(t));
-                let found = changes(0.0, TAU, &|t| side(t) > 0.0);
+                let found = changes(&|t| side(t) > 0.0);
                 plane.corners.extend(found.into_iter().map(|t| edge.at(t)));
             }
         }
@@ -126,16 +126,15 @@ impl Plane {
         for edge in &self.edges {
             let n = edge.normal.truncate();
             let (a, b, z2) = (edge.cos - n.dot(c), n.dot(e), edge.normal.z.powi(2));
-            if z2 == 0.0 {
+            // The circle of a cone around the horizon is a line as well, up to the rounding of its axis.
+            if z2 < 1e-30 {
                 ends.push(a / b);
                 continue;
             }
             // (a − bρ)² = n_z² (1 − |c + ρe|²)
             let (p, q) = (b * b + z2, z2 * along - a * b);
             let r = a * a - z2 * (1.0 - c.length_squared());
-            // The circle of a cone around the horizon is a line, met twice in the same place.
-            let square = q * q - p * r;
-            let root = if square.abs() < 1e-14 * q * q { 0.0 } else { square.sqrt() };
+            let root = (q * q - p * r).sqrt();
             ends.extend([(-q - root) / p, (-q + root) / p]);
         }
         ends.retain(|rho| *rho >= 0.0 && *rho <= end);
@@ -162,7 +161,8 @@ impl Plane {
         };
         let mut all: Vec<f64> = self.corners.iter().map(seen).collect();
         for count in 1..4 {
-            all.extend(changes(0.0, TAU, &|psi| self.intervals(psi).len() >= count));
+            let found = changes(&|psi| self.intervals(psi).len() >= count);
+            all.extend(found.into_iter().map(|psi| psi.rem_euclid(TAU)));
         }
         all.extend([0.0, TAU]);
         all.sort_by(f64::total_cmp);
@@ -171,10 +171,11 @@ impl Plane {
     }
 }
 
-/// Where `is` changes between `from` and `to`, to the last bit.
-fn changes(from: f64, to: f64, is: &dyn Fn(f64) -> bool) -> Vec<f64> {
+/// Where `is` changes around the circle, to the last bit; 0 and other likely places lie between
+/// two steps.
+fn changes(is: &dyn Fn(f64) -> bool) -> Vec<f64> {
     const STEPS: usize = 4000;
-    let at = |k: usize| from + (to - from) * k as f64 / STEPS as f64;
+    let at = |k: usize| 0.1234 + TAU * k as f64 / STEPS as f64;
     let mut found = Vec::new();
     for k in 0..STEPS {
         let (mut a, mut b) = (at(k), at(k + 1));
@@ -211,6 +212,18 @@ fn ray(rule: &[(f64, f64)], a: f64, b: f64, end: f64) -> Vec<(f64, f64)> {
     rule.iter().map(mapped).collect()
 }
 
+/// Ends of panels from `from` to `to` that are fine near both, where the ends of intervals may run
+/// away from a pole on an edge, and nowhere wider than 0.15 rad.
+fn graded(from: f64, to: f64) -> Vec<f64> {
+    let middle = 0.5 * (to - from);
+    let steps: Vec<f64> = std::iter::successors(Some(1e-5_f64), |step| Some(step + step.min(0.15)))
+        .take_while(|step| *step < 0.9 * middle)
+        .collect();
+    let rising = steps.iter().map(|step| from + step);
+    let falling = steps.iter().rev().map(|step| to - step);
+    [from].into_iter().chain(rising).chain([from + middle]).chain(falling).chain([to]).collect()
+}
+
 /// Ends of the panels along a ray, in widths of the lobe.
 const WIDTHS: [f64; 15] =
     [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 32.0, 64.0, 200.0, 600.0];
@@ -229,10 +242,8 @@ pub(crate) fn integral(
     let rule: Vec<(f64, f64)> = gauss::legendre(order, 0.0, 1.0);
     let mut sum = Mueller::ZERO;
     for pair in plane.azimuths().windows(2) {
-        let parts = ((pair[1] - pair[0]) / 0.4).ceil();
-        for k in 0..parts as usize {
-            let at = |k: f64| pair[0] + (pair[1] - pair[0]) * k / parts;
-            for (psi, weight) in panel(&rule, at(k as f64), at(k as f64 + 1.0)) {
+        for ends in graded(pair[0], pair[1]).windows(2) {
+            for (psi, weight) in panel(&rule, ends[0], ends[1]) {
                 let e = DVec2::from_angle(psi);
                 for (a, b) in plane.intervals(psi) {
                     let inner = WIDTHS.iter().map(|w| w * width).filter(|r| *r > a && *r < b);

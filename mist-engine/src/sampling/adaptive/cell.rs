@@ -146,7 +146,7 @@ fn sharpened(disagreement: f64, spread: f64) -> f64 {
 }
 
 /// Disagreements of more than a SAFETYth of the spread are taken as they are.
-const SAFETY: f64 = 20.0;
+const SAFETY: f64 = 200.0;
 
 #[cfg(test)]
 mod tests {

@@ -20,6 +20,12 @@ use crate::region::{Polygon, Region, RegionError, above_horizon, refuse_crossing
 /// Longest first cell along a ray, in w, where t = ε sinh w.
 const LONGEST: f64 = 1.3;
 
+/// Ends of intervals that move by more than this in w within a first cell divide it.
+const FAR: f64 = 1.3;
+
+/// Halvings of a slice before the first cells are made.
+const SPLITS: usize = 6;
+
 /// Widest slice, rad.
 const WIDEST: f64 = FRAC_PI_2;
 
@@ -115,19 +121,47 @@ impl Rays {
     fn even_cells(&self) -> Vec<Cell> {
         let mut cells = Vec::new();
         for slice in 0..self.slices.len() {
-            let lengths = [0.1, 0.5, 0.9].map(|s| self.lengths(slice, s));
-            let count = lengths.iter().map(Vec::len).max().unwrap_or(0);
-            for interval in 0..count {
-                let along = lengths.iter().filter_map(|l| l.get(interval));
-                let longest = along.fold(0.0_f64, |a, b| a.max(*b));
-                let pieces = (longest / LONGEST).ceil().max(1.0);
-                for k in 0..pieces as usize {
-                    let u = (k as f64 / pieces, (k + 1) as f64 / pieces);
-                    cells.push(Cell { slice, interval, s: (0.0, 1.0), u });
+            let mut parts = Vec::new();
+            self.split(slice, (0.0, 1.0), SPLITS, &mut parts);
+            for (from, to) in parts {
+                let at = [0.1, 0.5, 0.9].map(|x| self.stretches(slice, from + (to - from) * x));
+                let count = at.iter().map(Vec::len).max().unwrap_or(0);
+                for interval in 0..count {
+                    let lengths = at.iter().filter_map(|all| all.get(interval)).map(|w| w.1 - w.0);
+                    let pieces = (lengths.fold(0.0, f64::max) / LONGEST).ceil().max(1.0);
+                    for k in 0..pieces as usize {
+                        let u = (k as f64 / pieces, (k + 1) as f64 / pieces);
+                        cells.push(Cell { slice, interval, s: (from, to), u });
+                    }
                 }
             }
         }
         cells
+    }
+
+    /// Parts of a slice in which the ends of intervals move by no more than a few LONGEST: where
+    /// an edge passes close to the pole, they run away within a small angle.
+    fn split(&self, slice: usize, s: (f64, f64), depth: usize, parts: &mut Vec<(f64, f64)>) {
+        let middle = 0.5 * (s.0 + s.1);
+        let [first, last] = [s.0, s.1].map(|end| {
+            // The ends themselves may touch an edge.
+            self.stretches(slice, end + 1e-3 * (middle - end))
+        });
+        let moved = |(a, b): (&(f64, f64), &(f64, f64))| (a.0 - b.0).abs().max((a.1 - b.1).abs());
+        let most = first.iter().zip(&last).map(moved).fold(0.0, f64::max);
+        if depth == 0 || most < FAR {
+            parts.push(s);
+            return;
+        }
+        self.split(slice, (s.0, middle), depth - 1, parts);
+        self.split(slice, (middle, s.1), depth - 1, parts);
+    }
+
+    /// The intervals of a ray in w.
+    fn stretches(&self, slice: usize, s: f64) -> Vec<(f64, f64)> {
+        let (p, _) = self.azimuth(slice, s);
+        let stretch = |(a, b)| (self.stretched(a), self.stretched(b));
+        self.intervals(p).into_iter().map(stretch).collect()
     }
 
     /// The cells with those near to `peak` halved until they are not wider than the peak, and
@@ -153,12 +187,6 @@ impl Rays {
         let (s, u) = (0.5 * (cell.s.0 + cell.s.1), 0.5 * (cell.u.0 + cell.u.1));
         let along_p = at(cell.s.0, u).distance(at(cell.s.1, u));
         (at(s, u), along_p, at(s, cell.u.0).distance(at(s, cell.u.1)))
-    }
-
-    fn lengths(&self, slice: usize, s: f64) -> Vec<f64> {
-        let (p, _) = self.azimuth(slice, s);
-        let length = |(a, b)| self.stretched(b) - self.stretched(a);
-        self.intervals(p).into_iter().map(length).collect()
     }
 
     /// w of t.
