@@ -12,6 +12,7 @@ mod text;
 
 pub use check::REQUIRED_VARIABLES;
 pub use color::{Color, ColorEntry, ColorKey};
+pub use lex::count_tokens;
 pub use parse::MAX_PROGRAM_BYTES;
 pub use text::Text;
 

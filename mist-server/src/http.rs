@@ -6,6 +6,7 @@ mod error;
 mod evaluate;
 mod export;
 mod extract;
+mod file;
 mod flight;
 mod guard;
 mod health;
@@ -16,6 +17,7 @@ mod materials;
 mod metrics;
 mod models;
 mod page;
+mod patient;
 mod problem;
 mod program;
 mod recent;
@@ -78,6 +80,7 @@ fn routes() -> OpenApiRouter<App> {
         .routes(routes!(evaluate::vectors))
         .routes(routes!(table::table))
         .routes(routes!(run::run))
+        .routes(routes!(run::check))
         .routes(routes!(jobs::submit, jobs::list))
         .routes(routes!(jobs::get, jobs::cancel))
         .routes(routes!(jobs::events))

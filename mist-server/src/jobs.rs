@@ -16,7 +16,7 @@ use std::{
     collections::{BTreeMap, VecDeque},
     sync::{
         Arc, Condvar, Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicU64, Ordering},
     },
 };
 
@@ -52,6 +52,8 @@ struct Desk {
     queue: VecDeque<Arc<Job>>,
     /// Jobs that are over, the oldest first.
     over: VecDeque<String>,
+    /// Bytes of the programs and texts of all jobs.
+    stored: u64,
     next: u64,
     stopping: bool,
     workers: usize,
@@ -63,7 +65,8 @@ pub(crate) struct Job {
     pub(crate) id: String,
     number: u64,
     client: String,
-    body: ProgramBody,
+    /// Bytes of its program and of its texts.
+    bytes: AtomicU64,
     cancel: Arc<AtomicBool>,
     status: watch::Sender<Status>,
     /// The texts as far as they are, while it runs.
@@ -75,7 +78,8 @@ pub(crate) struct Job {
 struct Record {
     number: u64,
     client: String,
-    body: ProgramBody,
+    #[serde(default)]
+    bytes: u64,
     status: Status,
 }
 
@@ -85,7 +89,7 @@ impl Job {
             id: record.status.id.clone(),
             number: record.number,
             client: record.client,
-            body: record.body,
+            bytes: AtomicU64::new(record.bytes),
             cancel: Arc::default(),
             status: watch::channel(record.status).0,
             live: Mutex::default(),
@@ -107,15 +111,20 @@ impl Job {
         self.live.lock().unwrap_or_else(PoisonError::into_inner).results.clone()
     }
 
-    fn record(&self) -> String {
+    /// What is kept of it when it stands at `status`.
+    fn record(&self, status: Status) -> String {
         let record = Record {
             number: self.number,
             client: self.client.clone(),
-            body: self.body.clone(),
-            status: self.status(),
+            bytes: self.bytes.load(Ordering::Relaxed),
+            status,
         };
-        serde_json::to_string(&record).expect("texts and numbers have a JSON form")
+        json(&record)
     }
+}
+
+fn json(what: &impl Serialize) -> String {
+    serde_json::to_string(what).expect("texts and numbers have a JSON form")
 }
 
 impl Jobs {
@@ -136,6 +145,7 @@ impl Jobs {
         records.sort_by_key(|record| record.number);
         for mut record in records {
             desk.next = record.number + 1;
+            desk.stored += record.bytes;
             let over = record.status.state.is_over();
             if !over {
                 record.status.state = State::Queued;
@@ -178,22 +188,25 @@ impl Jobs {
     /// # Errors
     ///
     /// If too many wait, or it cannot be kept.
-    pub(crate) fn submit(&self, body: ProgramBody, client: String) -> Result<Status, ApiError> {
-        let mut bytes = [0; ID_BYTES];
-        getrandom::fill(&mut bytes).map_err(|error| ApiError::Failed(error.to_string()))?;
+    pub(crate) fn submit(&self, body: &ProgramBody, client: String) -> Result<Status, ApiError> {
+        let mut id = [0; ID_BYTES];
+        getrandom::fill(&mut id).map_err(|error| ApiError::Failed(error.to_string()))?;
+        let program = json(body);
+        let bytes = program.len() as u64;
         let job = {
             let mut desk = self.desk();
-            self.admit(&desk, &client)?;
-            let status = Status::new(hexadecimal(&bytes), body.job.clone());
-            let record = Record { number: desk.next, client, body, status };
+            self.admit_to(&desk, &client)?;
+            let status = Status::new(hexadecimal(&id), body.job.clone());
+            let record = Record { number: desk.next, client, bytes, status };
             desk.next += 1;
+            desk.stored += bytes;
             let job = Arc::new(Job::new(record));
             // It counts from now on, but waits until it is kept.
             desk.jobs.insert(job.id.clone(), job.clone());
             job
         };
-        if let Err(error) = self.0.store.put_job(&job.id, &job.record()) {
-            self.desk().jobs.remove(&job.id);
+        if let Err(error) = self.0.store.put_job(&job.id, &job.record(job.status()), &program) {
+            self.desk().remove(&job.id);
             return Err(error.into());
         }
         self.desk().queue.push_back(job.clone());
@@ -201,7 +214,16 @@ impl Jobs {
         Ok(job.status())
     }
 
-    fn admit(&self, desk: &Desk, client: &str) -> Result<(), ApiError> {
+    /// Whether a job of `client` would be accepted now.
+    ///
+    /// # Errors
+    ///
+    /// If too many wait.
+    pub(crate) fn admit(&self, client: &str) -> Result<(), ApiError> {
+        self.admit_to(&self.desk(), client)
+    }
+
+    fn admit_to(&self, desk: &Desk, client: &str) -> Result<(), ApiError> {
         if desk.stopping {
             return Err(ApiError::Unavailable("the service is stopping".into()));
         }
@@ -210,6 +232,11 @@ impl Jobs {
             let message = "too many jobs wait".into();
             let value = limits.max_queued as f64;
             return Err(ApiError::TooMany(Limit { flag: "max-queued", value, message }));
+        }
+        if desk.over.is_empty() && desk.stored >= limits.max_stored {
+            let message = "the jobs that wait or run fill the store".into();
+            let value = limits.max_stored as f64;
+            return Err(ApiError::TooMany(Limit { flag: "max-stored", value, message }));
         }
         let open = desk.jobs.values().filter(|job| !job.status.borrow().state.is_over());
         if open.filter(|job| job.client == client).count() >= limits.max_client_jobs {
@@ -256,7 +283,7 @@ impl Jobs {
         if job.status().state.is_over() {
             self.0.store.remove_job(&job.id)?;
             let mut desk = self.desk();
-            desk.jobs.remove(&job.id);
+            desk.remove(&job.id);
             desk.over.retain(|id| *id != job.id);
             return Ok(job.status());
         }
@@ -331,13 +358,10 @@ impl Office {
         let mut status = job.status();
         status.finish(state);
         tell(&mut status);
-        let record = Record {
-            number: job.number,
-            client: job.client.clone(),
-            body: job.body.clone(),
-            status: status.clone(),
-        };
-        let record = serde_json::to_string(&record).expect("texts and numbers have a JSON form");
+        let bytes = texts.iter().map(|(_, text)| text.len() as u64).sum();
+        job.bytes.fetch_add(bytes, Ordering::Relaxed);
+        self.desk().stored += bytes;
+        let record = job.record(status.clone());
         if let Err(error) = self.store.finish_job(&job.id, &record, texts) {
             tracing::error!(id = job.id, %error, "the end of a job cannot be kept");
             status.lost(&error.to_string());
@@ -348,21 +372,34 @@ impl Office {
 
     /// Notes that a job is over, and forgets the oldest of too many.
     fn over(&self, job: &Job) {
-        let forgotten = {
-            let mut desk = self.desk();
-            if job.status.borrow().state.is_over() {
-                desk.over.push_back(job.id.clone());
-            }
-            let oldest = desk.over.len() > self.limits.max_finished;
-            let oldest = if oldest { desk.over.pop_front() } else { None };
-            oldest.inspect(|id| {
-                desk.jobs.remove(id);
-            })
-        };
-        if let Some(id) = forgotten
-            && let Err(error) = self.store.remove_job(&id)
+        if !job.status.borrow().state.is_over() {
+            return;
+        }
+        let mut forgotten = Vec::new();
+        let mut desk = self.desk();
+        desk.over.push_back(job.id.clone());
+        let limits = &self.limits;
+        while desk.over.len() > limits.max_finished
+            || (desk.stored > limits.max_stored && desk.over.len() > 1)
         {
-            tracing::warn!(id, %error, "an old job cannot be forgotten");
+            let Some(id) = desk.over.pop_front() else { break };
+            desk.remove(&id);
+            forgotten.push(id);
+        }
+        drop(desk);
+        for id in forgotten {
+            if let Err(error) = self.store.remove_job(&id) {
+                tracing::warn!(id, %error, "an old job cannot be forgotten");
+            }
+        }
+    }
+}
+
+impl Desk {
+    /// Forgets a job and what it occupies.
+    fn remove(&mut self, id: &str) {
+        if let Some(job) = self.jobs.remove(id) {
+            self.stored -= job.bytes.load(Ordering::Relaxed);
         }
     }
 }

@@ -10,6 +10,7 @@ mod interrupt;
 mod jobs;
 mod keys;
 mod limits;
+mod memory;
 mod products;
 mod progress;
 mod registry;

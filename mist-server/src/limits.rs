@@ -12,6 +12,9 @@ pub struct ServeLimits {
     /// Bytes of the text of a program, its data files excepted.
     #[arg(long, default_value_t = 1 << 20, value_name = "BYTES")]
     pub max_program: usize,
+    /// Tokens of a program: words, numbers and signs.
+    #[arg(long, default_value_t = 200_000, value_name = "N")]
+    pub max_tokens: usize,
     /// Evaluations of the model for one answer or job.
     #[arg(long, default_value_t = 1e11, value_name = "N")]
     pub max_evaluations: f64,
@@ -30,6 +33,9 @@ pub struct ServeLimits {
     /// Bytes of results, listing and samples of a run together.
     #[arg(long, default_value_t = 256 << 20, value_name = "BYTES")]
     pub max_output: usize,
+    /// Bytes that bodies and the tables that are being made hold together, about.
+    #[arg(long, default_value_t = 4 << 30, value_name = "BYTES")]
+    pub max_memory: usize,
     /// Seconds that one answer may be computed.
     #[arg(long, default_value_t = 300.0, value_name = "SECONDS")]
     pub max_time: f64,
@@ -51,6 +57,9 @@ pub struct ServeLimits {
     /// Jobs of one client that wait or run.
     #[arg(long, default_value_t = 200, value_name = "N")]
     pub max_client_jobs: usize,
+    /// Bytes of the programs and results of all jobs; the oldest finished jobs are forgotten.
+    #[arg(long, default_value_t = 4 << 30, value_name = "BYTES")]
+    pub max_stored: u64,
     /// Finished jobs that are kept; older ones are forgotten.
     #[arg(long, default_value_t = 1000, value_name = "N")]
     pub max_finished: usize,
@@ -63,7 +72,8 @@ pub struct ServeLimits {
     /// Open connections.
     #[arg(long, default_value_t = 1024, value_name = "N")]
     pub max_connections: usize,
-    /// Seconds in which the head of a request must be sent, and then its body.
+    /// Seconds in which the head of a request must be sent, then its body, and in which something
+    /// of the answer must be read.
     #[arg(long, default_value_t = 60.0, value_name = "SECONDS")]
     pub max_silence: f64,
 }

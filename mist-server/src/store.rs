@@ -21,6 +21,8 @@ const FILE: &str = "mist.redb";
 const MATERIALS: TableDefinition<'_, &str, &str> = TableDefinition::new("materials");
 /// Records of jobs, JSON, by id.
 const JOBS: TableDefinition<'_, &str, &str> = TableDefinition::new("jobs");
+/// Programs of jobs with their files, JSON, by id.
+const PROGRAMS: TableDefinition<'_, &str, &str> = TableDefinition::new("programs");
 /// Finished steps by job and number.
 const STEPS: TableDefinition<'_, (&str, u64), &[u8]> = TableDefinition::new("steps");
 /// Texts of finished jobs by job and kind.
@@ -92,6 +94,7 @@ impl Store {
         store.write(|change| {
             change.open_table(MATERIALS)?;
             change.open_table(JOBS)?;
+            change.open_table(PROGRAMS)?;
             change.open_table(STEPS)?;
             change.open_table(TEXTS)?;
             Ok(())
@@ -125,11 +128,20 @@ impl Store {
         self.pairs(JOBS)
     }
 
-    /// Keeps the record of a job.
-    pub(crate) fn put_job(&self, id: &str, record: &str) -> Result<(), StoreError> {
+    /// Keeps the record and the program of a new job.
+    pub(crate) fn put_job(&self, id: &str, record: &str, program: &str) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(JOBS)?.insert(id, record)?;
+            change.open_table(PROGRAMS)?.insert(id, program)?;
             Ok(())
+        })
+    }
+
+    /// The program of a job.
+    pub(crate) fn program(&self, id: &str) -> Result<Option<String>, StoreError> {
+        self.with(|database| {
+            let programs = database.begin_read()?.open_table(PROGRAMS)?;
+            Ok(programs.get(id)?.map(|text| text.value().to_owned()))
         })
     }
 
@@ -154,6 +166,7 @@ impl Store {
     pub(crate) fn remove_job(&self, id: &str) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(JOBS)?.remove(id)?;
+            change.open_table(PROGRAMS)?.remove(id)?;
             let mut texts = change.open_table(TEXTS)?;
             let kinds: Result<Vec<String>, StorageError> = texts
                 .range((id, "")..=(id, "\u{10ffff}"))?
@@ -322,12 +335,13 @@ mod tests {
     fn a_folder_keeps_what_was_put_into_it() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::new(Some(folder.path())).unwrap();
-        store.put_job("a", "{}").unwrap();
+        store.put_job("a", "{}", "program").unwrap();
         store.put_steps("a", 3, &[vec![1], vec![2]]).unwrap();
         assert!(Store::new(Some(folder.path())).is_err(), "two services with one file");
         drop(store);
         let store = Store::new(Some(folder.path())).unwrap();
         assert_eq!(store.step("a", 4).unwrap(), Some(vec![2]));
+        assert_eq!(store.program("a").unwrap().as_deref(), Some("program"));
         store.finish_job("a", "{}", &[("results", "text".into())]).unwrap();
         assert_eq!(store.step("a", 4).unwrap(), None);
         assert_eq!(store.text("a", "results").unwrap().as_deref(), Some("text"));

@@ -33,7 +33,7 @@ pub fn nodes(part: &str, text: &str) -> Result<Vec<f64>, MaterialError> {
                 let [start, step, stop] =
                     [number(part, start)?, number(part, step)?, number(part, stop)?];
                 let count = ((stop - start) / step + 1e-9).floor();
-                if !(0.0..MOST_NODES).contains(&count) {
+                if !(0.0..MOST_NODES - all.len() as f64).contains(&count) {
                     let problem = format!("{piece}: no range of less than {MOST_NODES} numbers");
                     return Err(MaterialError::request(part, problem));
                 }

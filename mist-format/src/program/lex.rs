@@ -7,6 +7,23 @@ use super::{Comment, Text};
 use crate::number::is_blank;
 use crate::span::Span;
 
+/// How many words, numbers and signs `text` has outside of its comments: a measure of the work
+/// that a program makes before it runs.
+pub fn count_tokens(text: &str) -> usize {
+    let is_word = |byte: u8| byte.is_ascii_alphanumeric() || b"_.".contains(&byte) || byte >= 0x80;
+    let (mut count, mut in_word) = (0, false);
+    for line in text.lines() {
+        let code = line.split(';').next().unwrap_or_default();
+        for byte in code.bytes() {
+            let goes_on = in_word && is_word(byte);
+            count += usize::from(!(is_blank(byte) || goes_on));
+            in_word = is_word(byte);
+        }
+        in_word = false;
+    }
+    count
+}
+
 /// Why reading cannot go on. NIST's program waits forever in each of these cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stop {
@@ -186,6 +203,12 @@ impl<'t> Reader<'t> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_numbers_and_signs_outside_of_comments_count() {
+        assert_eq!(count_tokens("FOR t FROM 0 TO 1e3 BY 2.5 ; not this\na=-(b+c)"), 16);
+        assert_eq!(count_tokens(" \n ; nothing"), 0);
+    }
 
     fn tokens(text: &str) -> (Vec<String>, Stop) {
         let mut reader = Reader::new(text);

@@ -1,12 +1,10 @@
 //! Tables for renderers and optics programs by one URL, as `mist export` writes them.
 
-use std::sync::Arc;
-
 use axum::{
     Router,
-    extract::{Path, Query, State, rejection::QueryRejection},
-    http::{HeaderMap, StatusCode, header},
-    response::{IntoResponse, Response},
+    extract::State,
+    http::{HeaderMap, Uri},
+    response::Response,
     routing::get,
 };
 use mist_engine::{
@@ -30,9 +28,9 @@ use serde_json::json;
 use super::{
     App,
     error::ApiError,
+    extract::{Path, Query},
+    file::Asker,
     materials::Kept,
-    run::Leash,
-    table::{is_known, tag_of},
 };
 
 /// Largest answer, bytes: it is made in memory.
@@ -62,6 +60,8 @@ pub(super) struct Asked {
     nodes: Option<usize>,
     /// `s` or `p`: behind a filter (`.RISEdataBSDF`).
     filter: Option<String>,
+    /// Seconds to wait for the table before 202.
+    wait: Option<f64>,
 }
 
 /// The tables by the extension of their files.
@@ -80,7 +80,9 @@ const FORMATS: [(&str, Make); 7] = [
 /// `GET /v1/materials/{name}/table.{pbsdf|bsdf|RISEdataBSDF|xompt|astm|csv|xml}`
 pub(super) fn routes(router: Router<App>) -> Router<App> {
     FORMATS.into_iter().fold(router, |router, format| {
-        let one = move |state, path, asked, headers| answer(state, path, asked, headers, format);
+        let one = move |state, path, asked, headers, uri| {
+            answer(state, path, asked, (headers, uri), format)
+        };
         router.route(&format!("/v1/materials/{{name}}/table.{}", format.0), get(one))
     })
 }
@@ -91,22 +93,22 @@ type Make = fn(&str, &Kept, &Asked, &Control) -> Result<Vec<u8>, ExportError>;
 async fn answer(
     State(app): State<App>,
     Path(name): Path<String>,
-    asked: Result<Query<Asked>, QueryRejection>,
-    headers: HeaderMap,
+    Query(asked): Query<Asked>,
+    (headers, uri): (HeaderMap, Uri),
     (format, make): (&'static str, Make),
 ) -> Result<Response, ApiError> {
-    let Query(asked) = asked.map_err(|error| ApiError::Query(error.body_text()))?;
-    let kept: Arc<Kept> = app.materials.find(&name)?;
-    let tag = tag_of(&format!("{name:?} {} {format} {asked:?}", kept.hash));
-    if is_known(&headers, &tag) {
-        return Ok((StatusCode::NOT_MODIFIED, [(header::ETAG, tag)]).into_response());
+    let kept = app.materials.find(&name)?;
+    let content =
+        format!("{name:?} {} {format} {:?}", kept.hash, Asked { wait: None, ..asked.clone() });
+    let asker = Asker::new(&content, "application/octet-stream", asked.wait, (&headers, &uri));
+    if let Some(answer) = asker.known() {
+        return Ok(answer);
     }
-    let leash = Leash::default();
-    let control = Control { cancel: leash.0.clone(), progress: None };
-    let bytes = app.compute_in_time(move || make(&name, &kept, &asked, &control)).await?;
-    let bytes = bytes.map_err(refused)?;
-    let head = [(header::CONTENT_TYPE, "application/octet-stream".to_owned()), (header::ETAG, tag)];
-    Ok((head, bytes).into_response())
+    let work = move |control: &Control| {
+        let bytes = make(&name, &kept, &asked, control).map_err(refused)?;
+        Ok(bytes.into())
+    };
+    asker.answer(&app, MOST_BYTES as f64, work).await
 }
 
 fn polarized(
@@ -117,7 +119,7 @@ fn polarized(
 ) -> Result<Vec<u8>, ExportError> {
     let nm = wavelengths(asked, "450,500,550,600,650")?;
     let axes = axes::Axes::parse(asked.grid.as_deref().unwrap_or("37x46x91"), asked.uniform != 0)?;
-    fits(axes.nodes().saturating_mul(nm.len() * 64))?;
+    fits(&[axes.nodes(), nm.len(), 64])?;
     let bands = pbsdf::bands(&kept.prepared, &nm, asked.plugin == 0)?;
     pbsdf::write(&bands, &axes, &description(name), Vec::new(), control)
 }
@@ -135,7 +137,7 @@ fn reflection(
     let bands = Bands::new(&kept.prepared, &wavelengths(asked, usual)?)?;
     let grid = if bands.is_isotropic() { "24x64" } else { "37x20x48" };
     let size = Size::parse(asked.grid.as_deref().unwrap_or(grid))?;
-    fits(size.phi_i * size.theta_i * size.side * size.side * 4 * (bands.nm().len() + 1))?;
+    fits(&[size.phi_i, size.theta_i, size.side, size.side, 4, bands.nm().len() + 1])?;
     bsdf::write(&bands, channels, size, &description(name), Vec::new(), control)
 }
 
@@ -175,7 +177,7 @@ fn directions(
     };
     let bands = Bands::new(&kept.prepared, &wavelengths(asked, "400:10:700")?)?;
     // A number has about 20 characters.
-    fits(axes.directions().saturating_mul(bands.nm().len() * 20 + 80))?;
+    fits(&[axes.directions(), bands.nm().len() * 20 + 80])?;
     goniometer::write(&bands, &axes, form, name, Vec::new(), control)
 }
 
@@ -193,11 +195,14 @@ fn wavelengths(asked: &Asked, usual: &str) -> Result<Vec<f64>, ExportError> {
     Ok(query::nodes("lambda", asked.lambda.as_deref().unwrap_or(usual))?)
 }
 
-fn fits(bytes: usize) -> Result<(), ExportError> {
-    if bytes <= MOST_BYTES {
+/// Refuses a table of so many bytes, the product of `counts`, before it is made.
+fn fits(counts: &[usize]) -> Result<(), ExportError> {
+    let bytes: f64 = counts.iter().map(|count| *count as f64).product();
+    if bytes <= MOST_BYTES as f64 {
         return Ok(());
     }
-    let problem = format!("the table has {bytes} bytes, more than {MOST_BYTES}: use mist export");
+    let problem =
+        format!("the table has {bytes:.0} bytes, more than {MOST_BYTES}: use mist export");
     Err(ExportError::refused("grid", problem))
 }
 

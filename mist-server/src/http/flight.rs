@@ -1,4 +1,4 @@
-//! Texts that are computed once for everybody who asks at the same time, and kept for the next.
+//! Files that are computed once for everybody who asks at the same time, and kept for the next.
 
 use std::{
     collections::HashMap,
@@ -176,6 +176,10 @@ impl Landing {
                 Err(_) => flight.failed = Some(Instant::now()),
             }
             board.bytes += outcome.as_ref().map_or(0, Bytes::len);
+            // What the service could not do now it may do for the next who asks.
+            if outcome.as_ref().is_err_and(|problem| problem.status >= 500) {
+                board.flights.remove(&self.key);
+            }
         }
         self.outcome.send_replace(Some(outcome));
         board.make_room(self.flights.most);

@@ -14,7 +14,7 @@ use axum::{
 };
 
 use super::{App, error::ApiError, listen::Peer};
-use crate::keys::Scope;
+use crate::{keys::Scope, memory::Reserved};
 
 /// The header with the number of a request.
 const REQUEST_ID: &str = "x-request-id";
@@ -37,15 +37,21 @@ impl<S: Send + Sync> FromRequestParts<S> for Client {
 /// Addresses that need no key: they tell whether the service is there, and what it can do.
 const OPEN: [&str; 5] = ["/healthz", "/readyz", "/openapi.json", "/docs", "/"];
 
+/// Bodies up to so many bytes are not worth counting.
+const SMALL_BODY: usize = 64 << 10;
+/// Bytes that a byte of a body needs: as it came, as text, and as what is read from it.
+const PER_BYTE: f64 = 3.0;
+
 /// Checks the key, numbers the request, and tells the log how it ended.
 pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Next) -> Response {
     let begun = Instant::now();
     let id = request_id(&request);
-    let (method, path) = (request.method().clone(), request.uri().path().to_owned());
-    let route = request.extensions().get::<MatchedPath>().map(|path| path.as_str().to_owned());
+    let (method, uri) = (request.method().clone(), request.uri().clone());
+    let route = request.extensions().get::<MatchedPath>().cloned();
     let mut client = String::new();
-    let mut response = match admit(&app, &request) {
-        Ok(found) => {
+    let admitted = admit(&app, &request).and_then(|client| Ok((client, hold(&app, &request)?)));
+    let mut response = match admitted {
+        Ok((found, _held)) => {
             client.clone_from(&found.0);
             request.extensions_mut().insert(found);
             next.run(request).await
@@ -53,12 +59,28 @@ pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Ne
         Err(error) => error.into_response(),
     };
     let (status, seconds) = (response.status().as_u16(), begun.elapsed().as_secs_f64());
-    tracing::info!(id, %method, path, status, seconds, client, "answered");
-    app.metrics.count_request(&method, route.as_deref().unwrap_or("none"), status, seconds);
+    tracing::info!(id, %method, path = uri.path(), status, seconds, client, "answered");
+    let route = route.as_ref().map_or("none", MatchedPath::as_str);
+    app.metrics.count_request(&method, route, status, seconds);
     if let Ok(id) = HeaderValue::from_str(&id) {
         response.headers_mut().insert(REQUEST_ID, id);
     }
     response
+}
+
+/// Memory for the body of a request, until it is answered.
+fn hold(app: &App, request: &Request) -> Result<Option<Reserved>, ApiError> {
+    let most = app.limits.max_body;
+    let bytes = match request.headers().get(header::CONTENT_LENGTH) {
+        Some(length) => length.to_str().ok().and_then(|length| length.parse().ok()).unwrap_or(most),
+        None if request.headers().contains_key(header::TRANSFER_ENCODING) => most,
+        None => 0,
+    };
+    // A body that is too long is not read.
+    if bytes <= SMALL_BODY || bytes > most {
+        return Ok(None);
+    }
+    app.memory.reserve(bytes as f64 * PER_BYTE).map(Some)
 }
 
 /// The number that the client or a proxy gave, or the next one.

@@ -26,6 +26,7 @@ use super::{
     problem::Problems,
     run::Leash,
     schema,
+    table::memory_of,
 };
 use crate::products::Product;
 
@@ -122,9 +123,14 @@ pub(super) async fn integrate(
     request.limits = app.limits.engine(app.limits.max_time);
     request.stokes |= asked.component() > 0;
     let json = accept == Accept::Json;
+    let values = if out == Out::Mueller { 16.0 } else { 1.0 };
+    let held = app.memory.reserve(values * memory_of(&request))?;
     let leash = Leash::default();
     let control = Control { cancel: leash.0.clone(), progress: None };
-    let work = move || answer(&kept, &request, &asked, &control, (out, json));
+    let work = move || {
+        let _held = held;
+        answer(&kept, &request, &asked, &control, (out, json))
+    };
     let text = app.compute_in_time(work).await??;
     let kind = if json { "application/json" } else { "text/plain; charset=utf-8" };
     Ok(([(header::CONTENT_TYPE, kind)], text).into_response())

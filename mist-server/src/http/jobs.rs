@@ -79,18 +79,16 @@ pub(super) async fn submit(
     client: Client,
     body: ProgramBody,
 ) -> Result<Response, ApiError> {
+    app.jobs.admit(&client.0)?;
     // What is wrong with a program is told now rather than later.
     let limits = app.limits.clone();
     let body = app
         .compute_in_time(move || -> Result<ProgramBody, ApiError> {
-            let options = body.options(limits.engine(limits.max_job_time));
-            mist_engine::compile(&body.program, body.files(), &options).map_err(|found| {
-                ApiError::of_program(&body.program, mist_engine::Failure::Program(found))
-            })?;
+            body.check(limits.engine(limits.max_job_time))?;
             Ok(body)
         })
         .await??;
-    let status = app.blocking(move |app| app.jobs.submit(body, client.0)).await?;
+    let status = app.blocking(move |app| app.jobs.submit(&body, client.0)).await?;
     let location = HeaderValue::from_str(&format!("/v1/jobs/{}", status.id));
     let location = location.map_err(|error| ApiError::Failed(error.to_string()))?;
     let accepted = Json(Accepted { id: status.id });

@@ -11,6 +11,7 @@ use hyper_util::{
 use tokio::{net::TcpListener, sync::Semaphore};
 use tower::ServiceExt;
 
+use super::patient::Patient;
 use crate::limits::ServeLimits;
 
 /// How long answers that were begun may take when the service stops.
@@ -38,6 +39,7 @@ pub async fn serve(
     let connections = GracefulShutdown::new();
     let mut http = http1::Builder::new();
     http.timer(TokioTimer::new()).header_read_timeout(limits.silence());
+    let silence = limits.silence();
     let mut stop = pin!(stop);
     loop {
         let accept = async {
@@ -63,7 +65,8 @@ pub async fn serve(
             request.extensions_mut().insert(peer);
             router.clone().oneshot(request)
         });
-        let connection = http.serve_connection(TokioIo::new(stream), service);
+        let connection =
+            http.serve_connection(TokioIo::new(Patient::new(stream, silence)), service);
         let connection = connections.watch(connection);
         tokio::spawn(async move {
             let _place = place;

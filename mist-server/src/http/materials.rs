@@ -11,10 +11,7 @@ use axum::{
     http::{StatusCode, header},
     response::{IntoResponse, Response},
 };
-use mist_engine::{
-    compile,
-    material::{Material, MaterialError, Prepared},
-};
+use mist_engine::material::{Material, MaterialError, Prepared};
 use scattering::Mode;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -134,10 +131,7 @@ fn prepare(body: &str, limits: &ServeLimits) -> Result<Prepared, ApiError> {
 /// The material of a program's first step.
 fn first_step(body: ProgramBody, limits: &ServeLimits) -> Result<Prepared, ApiError> {
     body.admit(limits)?;
-    let options = body.options(limits.engine(limits.max_time));
-    let job = compile(&body.program, body.files(), &options).map_err(|found| {
-        ApiError::of_program(&body.program, mist_engine::Failure::Program(found))
-    })?;
+    let job = body.check(limits.engine(limits.max_time))?;
     Prepared::of_step(&job).map_err(|failure| ApiError::of_program(&body.program, failure))
 }
 

@@ -20,13 +20,17 @@ use super::{App, problem::Problems};
 /// Upper ends of the classes of durations, seconds.
 const DURATIONS: [f64; 9] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 10.0, 100.0];
 
+/// Answers by method and status.
+type Answers = BTreeMap<(&'static str, u16), u64>;
+
 /// Counters; clones count together.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Metrics(Arc<Counters>);
 
 #[derive(Debug, Default)]
 struct Counters {
-    requests: Mutex<BTreeMap<(String, String, u16), u64>>,
+    /// By route.
+    requests: Mutex<BTreeMap<String, Answers>>,
     durations: [AtomicU64; DURATIONS.len() + 1],
     microseconds: AtomicU64,
     evaluations: AtomicU64,
@@ -37,9 +41,14 @@ struct Counters {
 impl Metrics {
     /// A request that was answered.
     pub(super) fn count_request(&self, method: &Method, route: &str, status: u16, seconds: f64) {
-        let key = (method.to_string(), route.to_owned(), status);
+        let key = (name(method), status);
         let mut requests = self.0.requests.lock().unwrap_or_else(PoisonError::into_inner);
-        *requests.entry(key).or_default() += 1;
+        match requests.get_mut(route) {
+            Some(counts) => *counts.entry(key).or_default() += 1,
+            None => {
+                requests.insert(route.to_owned(), [(key, 1)].into());
+            }
+        }
         drop(requests);
         let class = DURATIONS.iter().position(|end| seconds <= *end).unwrap_or(DURATIONS.len());
         self.0.durations[class].fetch_add(1, Ordering::Relaxed);
@@ -61,7 +70,9 @@ impl Metrics {
     fn write(&self, text: &mut String) {
         family(text, "mist_requests_total", "counter", "Requests answered.");
         let requests = self.0.requests.lock().unwrap_or_else(PoisonError::into_inner);
-        for ((method, route, status), count) in requests.iter() {
+        let each =
+            requests.iter().flat_map(|(route, counts)| counts.iter().map(move |c| (route, c)));
+        for (route, ((method, status), count)) in each {
             let labels = format!("method=\"{method}\",route=\"{route}\",status=\"{status}\"");
             // Writing to a string cannot fail.
             let _ = writeln!(text, "mist_requests_total{{{labels}}} {count}");
@@ -88,6 +99,13 @@ impl Metrics {
     }
 }
 
+/// The name of a method; clients may invent any number of others.
+fn name(method: &Method) -> &'static str {
+    let known = [Method::GET, Method::POST, Method::PUT, Method::DELETE, Method::HEAD];
+    let at = known.iter().position(|known| known == method);
+    at.map_or("other", |at| ["GET", "POST", "PUT", "DELETE", "HEAD"][at])
+}
+
 fn family(text: &mut String, name: &str, kind: &str, help: &str) {
     // Writing to a string cannot fail.
     let _ = writeln!(text, "# HELP {name} {help}\n# TYPE {name} {kind}");
@@ -111,6 +129,7 @@ pub(super) async fn metrics(State(app): State<App>) -> impl IntoResponse {
     app.metrics.write(&mut text);
     gauge(&mut text, "mist_materials", "Materials kept.", app.materials.len());
     gauge(&mut text, "mist_computing_waiting", "Answers that wait.", app.compute.waiting());
+    gauge(&mut text, "mist_memory_held_bytes", "Bytes held by requests.", app.memory.held());
     gauge(&mut text, "mist_tables_kept_bytes", "Bytes of tables kept.", app.flights.bytes());
     let name = "mist_jobs";
     family(&mut text, name, "gauge", "Jobs by state.");

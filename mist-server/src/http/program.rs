@@ -6,7 +6,8 @@ use axum::{
     extract::{FromRequest, Multipart, Request},
     http::{StatusCode, header},
 };
-use mist_engine::{Files, MemoryFiles, Options};
+use mist_engine::{Failure, Files, Job, MemoryFiles, Options, compile};
+use mist_format::program::count_tokens;
 use scattering::Mode;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -49,12 +50,18 @@ impl ProgramBody {
 
     /// Refuses a program that is too long.
     pub(crate) fn admit(&self, limits: &ServeLimits) -> Result<(), ApiError> {
-        let (bytes, most) = (self.program.len(), limits.max_program);
-        if bytes <= most {
-            return Ok(());
+        let (bytes, tokens) = (self.program.len(), count_tokens(&self.program));
+        for (count, most, what, flag) in [
+            (bytes, limits.max_program, "bytes", "max-program"),
+            (tokens, limits.max_tokens, "tokens", "max-tokens"),
+        ] {
+            if count > most {
+                let message = format!("the program has {count} {what}, more than {most}");
+                let limit = Limit { flag, value: most as f64, message };
+                return Err(ApiError::TooLarge(limit));
+            }
         }
-        let message = format!("the program has {bytes} bytes, more than {most}");
-        Err(ApiError::TooLarge(Limit { flag: "max-program", value: most as f64, message }))
+        Ok(())
     }
 
     /// The files that were sent.
@@ -72,6 +79,12 @@ impl ProgramBody {
             limits,
             ..Options::default()
         }
+    }
+
+    /// Compiles the program within `limits`.
+    pub(crate) fn check(&self, limits: mist_engine::Limits) -> Result<Job, ApiError> {
+        compile(&self.program, self.files(), &self.options(limits))
+            .map_err(|found| ApiError::of_program(&self.program, Failure::Program(found)))
     }
 
     fn from_json(text: &str) -> Result<Self, ApiError> {

@@ -11,9 +11,17 @@ use axum::{
     http::header,
     response::{IntoResponse, Response},
 };
-use mist_engine::{Control, Failure, compile};
+use mist_engine::Control;
+use serde::Serialize;
+use utoipa::ToSchema;
 
-use super::{App, error::ApiError, extract::Accept, problem::Problems, program::ProgramBody};
+use super::{
+    App,
+    error::ApiError,
+    extract::Accept,
+    problem::{Found, Problems},
+    program::ProgramBody,
+};
 use crate::{jobs::MeasuredSink, limits::ServeLimits, results::Results};
 
 /// Run a program with its data files; the answer is its table: text as the program writes it,
@@ -48,18 +56,46 @@ pub(super) async fn run(
     Ok(answer(text, header_lines, accept))
 }
 
+/// What is wrong with a program, without a run of it; the body is that of `/v1/run`.
+#[utoipa::path(
+    post,
+    path = "/v1/check",
+    tag = "programs",
+    request_body(content(
+        (ProgramBody = "application/json"), (String = "text/plain"), (ProgramBody = "multipart/form-data"),
+    )),
+    responses((status = 200, description = "Empty if nothing is", body = Checked), Problems),
+)]
+pub(super) async fn check(
+    State(app): State<App>,
+    body: ProgramBody,
+) -> Result<Json<Checked>, ApiError> {
+    let limits = app.limits.clone();
+    let work = move || body.check(limits.engine(limits.max_time)).err();
+    let problem = app.compute_in_time(work).await?.map(ApiError::problem);
+    match problem {
+        None => Ok(Json(Checked { diagnostics: Vec::new() })),
+        Some(problem) if problem.diagnostics.is_empty() => Err(ApiError::Told(Box::new(problem))),
+        Some(problem) => Ok(Json(Checked { diagnostics: problem.diagnostics })),
+    }
+}
+
+/// What a check found.
+#[derive(Serialize, ToSchema)]
+pub(super) struct Checked {
+    /// Every mistake, in the order of the text.
+    diagnostics: Vec<Found>,
+}
+
 /// The results, and how many header lines they have.
 fn attempt(
     body: &ProgramBody,
     limits: &ServeLimits,
     control: &Control,
 ) -> Result<(String, usize), ApiError> {
-    let failed = |failure| ApiError::of_program(&body.program, failure);
-    let options = body.options(limits.engine(limits.max_time));
-    let job = compile(&body.program, body.files(), &options)
-        .map_err(|found| failed(Failure::Program(found)))?;
+    let job = body.check(limits.engine(limits.max_time))?;
     let mut sink = MeasuredSink::new(limits.max_output);
-    job.run(&mut sink, control).map_err(failed)?;
+    job.run(&mut sink, control).map_err(|failure| ApiError::of_program(&body.program, failure))?;
     Ok((sink.results, job.program().files.headers().count()))
 }
 

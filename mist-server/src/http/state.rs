@@ -6,17 +6,18 @@ use mist_engine::material::lobes::Lobes;
 
 use super::{
     error::ApiError,
+    file::too_long,
     flight::Flights,
     materials::{Kept, Materials},
     metrics::Metrics,
     recent::Recent,
-    table::too_long,
 };
 use crate::{
     compute::Compute,
     jobs::Jobs,
     keys::Keys,
     limits::ServeLimits,
+    memory::Memory,
     store::{Store, StoreError},
 };
 
@@ -29,6 +30,7 @@ pub struct App {
     pub(super) limits: Arc<ServeLimits>,
     pub(super) keys: Option<Arc<Keys>>,
     pub(super) compute: Compute,
+    pub(super) memory: Memory,
     pub(super) materials: Materials,
     pub(super) lobes: Recent<Lobes>,
     pub(super) flights: Flights,
@@ -89,6 +91,7 @@ impl App {
         Ok(Self {
             keys: keys.map(Keys::parse).transpose().map_err(StartError::Keys)?.map(Arc::new),
             compute: Compute::new(limits.max_computing, limits.max_waiting),
+            memory: Memory::new(limits.max_memory),
             materials,
             lobes: Recent::new(LOBES),
             flights: Flights::new(limits.max_kept),

@@ -11,13 +11,20 @@ use rise_bridge::write::Style;
 
 use super::{Job, MeasuredSink, Office, State, ledger::Ledger};
 use crate::{
-    http::{ApiError, Problem},
+    http::{ApiError, Problem, ProgramBody},
     products::Product,
 };
 
 /// Runs `job` to its end, or until the service stops.
 pub(super) fn run(office: &Office, job: &Job) {
-    let work = || attempt(office, job);
+    let body = match program(office, job) {
+        Ok(body) => body,
+        Err(error) => {
+            let problem = ApiError::Unavailable(error.to_string()).problem();
+            return office.finish(job, State::Failed, |status| status.problem = Some(problem), &[]);
+        }
+    };
+    let work = || attempt(office, job, &body);
     let done = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work));
     let problem = match done {
         Ok(Ok(())) => return,
@@ -31,7 +38,7 @@ pub(super) fn run(office: &Office, job: &Job) {
             if is_cancelled {
                 return office.finish(job, State::Cancelled, |_| (), &[]);
             }
-            ApiError::of_program(&job.body.program, failure).problem()
+            ApiError::of_program(&body.program, failure).problem()
         }
         Err(_) => {
             let message = "the computation broke down";
@@ -39,6 +46,13 @@ pub(super) fn run(office: &Office, job: &Job) {
         }
     };
     office.finish(job, State::Failed, |status| status.problem = Some(problem), &[]);
+}
+
+/// The program of a job, which only the store has while it waits.
+fn program(office: &Office, job: &Job) -> io::Result<ProgramBody> {
+    let text = office.store.program(&job.id)?;
+    let text = text.ok_or_else(|| io::Error::other("the program of the job is not kept"))?;
+    Ok(serde_json::from_str(&text)?)
 }
 
 /// The sink of a job: everybody may look into it while it fills.
@@ -50,11 +64,10 @@ impl Sink for Live<'_> {
     }
 }
 
-fn attempt(office: &Office, job: &Job) -> Result<(), Failure> {
+fn attempt(office: &Office, job: &Job, body: &ProgramBody) -> Result<(), Failure> {
     let limits = &office.limits;
-    let options = job.body.options(limits.engine(limits.max_job_time));
-    let compiled =
-        compile(&job.body.program, job.body.files(), &options).map_err(Failure::Program)?;
+    let options = body.options(limits.engine(limits.max_job_time));
+    let compiled = compile(&body.program, body.files(), &options).map_err(Failure::Program)?;
     let header_lines = compiled.program().files.headers().count();
     job.status.send_modify(|status| status.header_lines = header_lines);
     *job.live.lock().unwrap_or_else(PoisonError::into_inner) = MeasuredSink::new(limits.max_output);

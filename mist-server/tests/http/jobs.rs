@@ -111,6 +111,37 @@ async fn a_job_ends_with_the_texts_of_its_run() {
 }
 
 #[tokio::test]
+async fn a_check_finds_what_a_run_would_refuse() {
+    let app = App::default();
+    let well = post_json(&app, "/v1/check", &body()).await;
+    assert_eq!((well.status, well.json()), (StatusCode::OK, json!({"diagnostics": []})));
+    let mut wrong = body();
+    wrong["program"] = json!(PROGRAM.replace("Lambertian", "Lambertain").replace("R/pi", "R/"));
+    let found = post_json(&app, "/v1/check", &wrong).await;
+    assert_eq!(found.status, StatusCode::OK);
+    let found = found.json()["diagnostics"].as_array().unwrap().clone();
+    let refused = post_json(&app, "/v1/run", &wrong).await.json();
+    assert_eq!(Value::from(found.clone()), refused["diagnostics"]);
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert_eq!((&found[0]["line"], &found[0]["column"]), (&json!(1), &json!(9)));
+}
+
+#[tokio::test]
+async fn finished_jobs_make_room_for_others() {
+    let limits = ServeLimits { max_stored: 3000, ..ServeLimits::default() };
+    let app = App::new(limits, None, None).unwrap();
+    for _ in 0..5 {
+        let accepted = post_json(&app, "/v1/jobs", &body()).await;
+        assert_eq!(accepted.status, StatusCode::ACCEPTED, "{}", accepted.text);
+        let id = accepted.json()["id"].as_str().unwrap().to_owned();
+        assert_eq!(over(&app, &id).await["state"], "done");
+    }
+    // Some thousand bytes each: the last is there, and not all are.
+    let kept = ask(&app, Method::GET, "/v1/jobs", None, "").await.json();
+    assert!((1..=2).contains(&kept.as_array().unwrap().len()), "{kept}");
+}
+
+#[tokio::test]
 async fn a_wrong_program_is_told_with_its_place_and_a_job_that_fails_says_why() {
     let app = App::default();
     let mut wrong = body();

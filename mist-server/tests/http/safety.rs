@@ -15,7 +15,8 @@ const SIMPLE: &str = "MODEL = Lambertian_BRDF_Model\nVARIABLES:\n\
 
 #[tokio::test]
 async fn a_hostile_program_is_refused_and_the_service_lives() {
-    let limits = ServeLimits { max_time: 20.0, ..ServeLimits::default() };
+    // So many tokens would be refused before anything else.
+    let limits = ServeLimits { max_time: 20.0, max_tokens: usize::MAX, ..ServeLimits::default() };
     let app = App::new(limits, None, None).unwrap();
     let deep = format!("{}1{}", "(".repeat(200_000), ")".repeat(200_000));
     let minus = format!("{}1", "-".repeat(200_000));
@@ -50,6 +51,8 @@ async fn what_is_too_large_is_refused_with_the_name_of_the_limit() {
         max_body: 10_000,
         max_program: 1000,
         max_wavelengths: 100,
+        max_tokens: 200,
+        max_memory: 10_000_000,
         ..ServeLimits::default()
     };
     let app = App::new(limits, None, None).unwrap();
@@ -57,10 +60,20 @@ async fn what_is_too_large_is_refused_with_the_name_of_the_limit() {
     assert_eq!(put.status, StatusCode::CREATED, "{}", put.text);
     let huge = " ".repeat(20_000);
     let long = format!("{SIMPLE}{}", " ".repeat(2000));
+    let wordy = SIMPLE.replace("rotation = 0", &format!("rotation = 0{}", "+1".repeat(200)));
     let table = "/v1/materials/glass/table.mtab";
     let cases = [
         (Method::PUT, "/v1/materials/a".to_owned(), huge.as_str(), 413, "max-body"),
         (Method::POST, "/v1/run".to_owned(), long.as_str(), 413, "max-program"),
+        (Method::POST, "/v1/run".to_owned(), wordy.as_str(), 413, "max-tokens"),
+        (Method::POST, "/v1/jobs".to_owned(), wordy.as_str(), 413, "max-tokens"),
+        (
+            Method::GET,
+            format!("{table}?thetai=0:10:80&thetas=0:5:80&phis=0:2:180&lambda=400:10:700"),
+            "",
+            422,
+            "max-memory",
+        ),
         (
             Method::GET,
             format!("{table}?thetai=0:0.01:90&thetas=0:0.01:90&phis=0:0.01:180"),
@@ -91,6 +104,29 @@ async fn what_is_too_large_is_refused_with_the_name_of_the_limit() {
         assert_eq!(headers["content-type"], "application/problem+json");
         let problem: serde_json::Value = serde_json::from_str(&text).unwrap();
         assert_eq!(problem["limit"], limit, "{uri}: {text}");
+    }
+}
+
+#[tokio::test]
+async fn orders_of_billions_are_refused_before_they_are_made() {
+    let app = App::default();
+    ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
+    let axis = "0:0.001:89".to_owned() + &",0:0.001:89".repeat(1000);
+    for query in [
+        "table.mtab?thetai=0:1e-9:90&thetas=0&phis=0".to_owned(),
+        "table.mtab?thetai=0:0.001:90&thetas=0:0.001:90&phis=0:0.001:180".to_owned(),
+        format!("table.mtab?thetai={axis}&thetas=0&phis=0"),
+        format!("table.csv?thetai={axis}&thetas=0&phis=0"),
+        "table.pbsdf?grid=1000000000x1000000000x1000000000".to_owned(),
+        "table.pbsdf?grid=1000x1000x1000".to_owned(),
+        "table.bsdf?grid=1024x1024x4096".to_owned(),
+        "table.RISEdataBSDF?nodes=1000000000".to_owned(),
+        "table.csv?thetai=0:0.01:89&thetas=0:0.01:89&phis=0:0.01:180".to_owned(),
+    ] {
+        let uri = format!("/v1/materials/glass/{query}");
+        let answer = ask(&app, Method::GET, &uri, None, "").await;
+        let head = &query[..query.len().min(100)];
+        assert_eq!(answer.status, StatusCode::UNPROCESSABLE_ENTITY, "{head}: {}", answer.text);
     }
 }
 

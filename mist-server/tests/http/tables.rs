@@ -3,7 +3,7 @@
 use axum::http::{Method, StatusCode};
 use mist_server::http::App;
 
-use crate::ask::{GLASS, ask};
+use crate::ask::{GLASS, ask, send};
 
 const TABLE: &str =
     "/v1/materials/glass/table.mtab?thetai=0:30:60&thetas=0:30:60&phis=0:90:180&lambda=400:50:700";
@@ -137,4 +137,47 @@ async fn all_who_ask_at_the_same_time_get_the_table_that_was_computed_once() {
     assert!(texts.iter().all(|text| *text == texts[0] && text.starts_with("# MIST-TABLE 1")));
     let metrics = ask(&app, Method::GET, "/metrics", None, "").await.text;
     assert!(metrics.contains("mist_tables_shared_total 7"), "{metrics}");
+}
+
+#[tokio::test]
+async fn a_table_is_compressed_as_the_client_likes_it() {
+    let app = App::default();
+    ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
+    let plain = ask(&app, Method::GET, TABLE, None, "").await.text;
+    for (accepts, encoding) in
+        [("zstd, gzip", "zstd"), ("gzip;q=1, zstd;q=0.5", "gzip"), ("gzip", "gzip"), ("br", "")]
+    {
+        let accept = [("accept-encoding", accepts)];
+        let (status, headers, bytes) = send(&app, Method::GET, TABLE, &accept, "").await;
+        assert_eq!(status, StatusCode::OK);
+        let found = headers.get("content-encoding").map_or("", |name| name.to_str().unwrap());
+        assert_eq!(found, encoding, "{accepts}");
+        // RFC 8878 and RFC 1952: how such data begin.
+        match encoding {
+            "zstd" => {
+                assert_eq!(zstd::decode_all(&bytes[..]).unwrap(), plain.as_bytes());
+            }
+            "gzip" => assert_eq!(bytes[..2], [0x1f, 0x8b]),
+            _ => assert_eq!(bytes, plain.as_bytes()),
+        }
+    }
+}
+
+#[tokio::test]
+async fn tables_of_other_programs_are_promised_and_computed_once_too() {
+    let app = App::default();
+    ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
+    let uri = "/v1/materials/glass/table.bsdf?grid=8x16&lambda=400:100:700";
+    let promised = ask(&app, Method::GET, &format!("{uri}&wait=0"), None, "").await;
+    assert_eq!(promised.status, StatusCode::ACCEPTED, "{}", promised.text);
+    assert!(promised.headers.contains_key("location"));
+    assert!(promised.headers.contains_key("retry-after"));
+    let (status, headers, bytes) = send(&app, Method::GET, uri, &[], "").await;
+    assert_eq!(status, StatusCode::OK);
+    assert!(bytes.starts_with(b"tensor_file"));
+    let metrics = ask(&app, Method::GET, "/metrics", None, "").await.text;
+    assert!(metrics.contains("mist_tables_shared_total 1"), "{metrics}");
+    let tag = headers["etag"].to_str().unwrap();
+    let again = ask(&app, Method::GET, uri, Some(tag), "").await;
+    assert_eq!(again.status, StatusCode::NOT_MODIFIED);
 }

@@ -1,0 +1,149 @@
+//! A file of a material: told by its tag, computed once for everybody who asks, and kept.
+
+use std::time::Duration;
+
+use axum::{
+    body::Bytes,
+    http::{HeaderMap, HeaderValue, StatusCode, Uri, header},
+    response::{IntoResponse, Response},
+};
+use mist_engine::Control;
+use sha2::{Digest, Sha256};
+
+use super::{
+    App,
+    error::{ApiError, Limit},
+    flight::{Landing, Outcome},
+};
+use crate::memory::Reserved;
+
+/// Seconds that a client waits for a file unless it says otherwise.
+const PATIENCE: f64 = 30.0;
+/// Seconds after which a client may ask again for a file that is being computed.
+const RETRY_AFTER: u32 = 1;
+
+/// Which file is asked for, and how.
+pub(super) struct Asker<'a> {
+    tag: String,
+    kind: &'static str,
+    headers: &'a HeaderMap,
+    uri: &'a Uri,
+    patience: Duration,
+}
+
+impl<'a> Asker<'a> {
+    /// Who asks for the file that is all that `content` says, of the content type `kind`, and
+    /// waits for `wait` seconds if the query says so.
+    pub(super) fn new(
+        content: &str,
+        kind: &'static str,
+        wait: Option<f64>,
+        (headers, uri): (&'a HeaderMap, &'a Uri),
+    ) -> Self {
+        Self { tag: tag_of(content), kind, headers, uri, patience: patience(wait, headers) }
+    }
+
+    /// The answer to a client that has the file already.
+    pub(super) fn known(&self) -> Option<Response> {
+        is_known(self.headers, &self.tag)
+            .then(|| (StatusCode::NOT_MODIFIED, [(header::ETAG, &self.tag)]).into_response())
+    }
+
+    /// The file, or 202 if it takes longer than the client waits. `work` makes it, and needs about
+    /// so many `bytes` of memory.
+    pub(super) async fn answer(
+        self,
+        app: &App,
+        bytes: f64,
+        work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
+    ) -> Result<Response, ApiError> {
+        let (mut waiting, landing) = app.flights.join(&self.tag);
+        app.metrics.count_table(landing.is_none());
+        if let Some(landing) = landing {
+            let held = app.memory.reserve(bytes)?;
+            tokio::spawn(fly(app.clone(), landing, held, work));
+        }
+        match waiting.outcome(self.patience).await {
+            Some(Ok(file)) => {
+                let headers = [(header::CONTENT_TYPE, self.kind)];
+                Ok(([(header::ETAG, self.tag)], headers, file).into_response())
+            }
+            Some(Err(problem)) => Err(ApiError::Told(Box::new(problem))),
+            None => Ok(come_back(self.uri)),
+        }
+    }
+}
+
+/// Makes a file for everybody who waits for it.
+async fn fly(
+    app: App,
+    landing: Landing,
+    held: Reserved,
+    work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
+) {
+    let control = Control { cancel: landing.cancel.clone(), progress: None };
+    let work = move || {
+        let _held = held;
+        work(&control)
+    };
+    let computed = tokio::time::timeout(app.limits.time(), app.compute.run(work)).await;
+    let outcome: Outcome = match computed {
+        Ok(Ok(done)) => done.map_err(ApiError::problem),
+        Ok(Err(error)) => Err(ApiError::from(error).problem()),
+        Err(_) => {
+            landing.cancel.store(true, std::sync::atomic::Ordering::Relaxed);
+            Err(too_long(&app).problem())
+        }
+    };
+    landing.land(outcome);
+}
+
+/// The work takes longer than one answer may.
+pub(super) fn too_long(app: &App) -> ApiError {
+    let value = app.limits.max_time;
+    let message = format!("the answer takes longer than {value} s");
+    ApiError::Limit(Limit { flag: "max-time", value, message })
+}
+
+/// How long the client waits: as the query, the header `Prefer` (RFC 7240) or nobody says.
+fn patience(wait: Option<f64>, headers: &HeaderMap) -> Duration {
+    let prefers = headers.get_all("prefer").iter().filter_map(|value| value.to_str().ok());
+    let mut preferred = None;
+    for preference in prefers.flat_map(|list| list.split([',', ';'])).map(str::trim) {
+        if let Some(seconds) = preference.strip_prefix("wait=") {
+            preferred = seconds.trim_matches('"').parse().ok();
+        } else if preference == "respond-async" && preferred.is_none() {
+            preferred = Some(0.0);
+        }
+    }
+    let seconds: f64 = wait.or(preferred).unwrap_or(PATIENCE);
+    Duration::try_from_secs_f64(seconds.clamp(0.0, 3600.0)).unwrap_or_default()
+}
+
+fn come_back(uri: &Uri) -> Response {
+    let mut response = StatusCode::ACCEPTED.into_response();
+    let headers = response.headers_mut();
+    headers.insert(header::RETRY_AFTER, HeaderValue::from(RETRY_AFTER));
+    let here = uri.path_and_query().map_or("/", |path| path.as_str());
+    if let Ok(here) = HeaderValue::from_str(here) {
+        headers.insert(header::LOCATION, here);
+    }
+    response
+}
+
+/// The tag of what `content` says, as this version answers it: equal requests for equal materials
+/// have equal answers, so the tag needs no file.
+fn tag_of(content: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let digest = Sha256::digest(format!("{version} {content}"));
+    format!("\"sha256-{digest:x}\"")
+}
+
+/// Whether the client has what `tag` names: `If-None-Match` is `*` or a list of tags.
+fn is_known(headers: &HeaderMap, tag: &str) -> bool {
+    let given = headers.get_all(header::IF_NONE_MATCH).iter().filter_map(|v| v.to_str().ok());
+    given
+        .flat_map(|list| list.split(','))
+        .map(|one| one.trim())
+        .any(|one| one == "*" || one.strip_prefix("W/").unwrap_or(one) == tag)
+}
