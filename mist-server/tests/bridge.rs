@@ -4,7 +4,10 @@
 use std::{fs, os::unix::fs::PermissionsExt, path::Path};
 
 use assert_cmd::Command;
-use rise_bridge::rise::table::read;
+use rise_bridge::{
+    image::{Encoding, Format, Image},
+    rise::table::read,
+};
 
 const SCENE: &str = "RISE ASCII SCENE 7\nfile_rasterizeroutput\n{\n\tpattern\tout/ball\n\ttype\tPNG\n}\n\
     datadriven_material\n{\n\tname\tball\n\tfilename\tnone\n\
@@ -18,11 +21,27 @@ fn renderer(dir: &Path, body: &str) -> std::path::PathBuf {
     path
 }
 
-fn bridge(dir: &Path, rise: Option<&Path>) -> std::process::Output {
+/// Writes `picture.png` and `picture.exr`, which are grey, and `black.png`.
+fn pictures(dir: &Path) {
+    let image = |value| Image::new([2, 1], 3, vec![value; 6], Encoding::Linear).unwrap();
+    for (name, value, format) in [
+        ("picture.png", 0.25, Format::Png),
+        ("picture.exr", 0.25, Format::Exr),
+        ("black.png", 0.0, Format::Png),
+    ] {
+        fs::write(dir.join(name), image(value).write(format).unwrap()).unwrap();
+    }
+}
+
+fn bridge(dir: &Path, rise: Option<&Path>, bands: bool) -> std::process::Output {
+    pictures(dir);
     fs::write(dir.join("ball.RISEscene"), SCENE).unwrap();
     let words = ["bridge", "ball.RISEscene", "--out", "made", "--nodes", "4", "--wavelengths"];
     let mut command = Command::cargo_bin("mist").unwrap();
     command.current_dir(dir).args(words).arg("450,550,650").env_remove("RISE_BIN");
+    if bands {
+        command.arg("--bands");
+    }
     if let Some(rise) = rise {
         command.arg("--render").env("RISE_BIN", rise);
     }
@@ -32,7 +51,7 @@ fn bridge(dir: &Path, rise: Option<&Path>) -> std::process::Output {
 #[test]
 fn a_scene_becomes_a_table_and_a_scene() {
     let dir = tempfile::tempdir().unwrap();
-    let output = bridge(dir.path(), None);
+    let output = bridge(dir.path(), None, false);
     assert!(output.status.success(), "{output:?}");
     let table = read(&fs::read(dir.path().join("made/ball.RISEdataBSDF")).unwrap()).unwrap();
     let white = 0.5 / std::f64::consts::PI;
@@ -44,8 +63,8 @@ fn a_scene_becomes_a_table_and_a_scene() {
 #[test]
 fn a_picture_that_is_there_is_a_success_whatever_the_exit_code() {
     let dir = tempfile::tempdir().unwrap();
-    let rise = renderer(dir.path(), "echo picture > ball_mist.png");
-    let output = bridge(dir.path(), Some(&rise));
+    let rise = renderer(dir.path(), "cp ../picture.png ball_mist.png");
+    let output = bridge(dir.path(), Some(&rise), false);
     assert!(output.status.success(), "{output:?}");
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(said.contains("ball_mist.RISEscene: ball_mist.png in"), "{said}");
@@ -60,14 +79,30 @@ fn silent_failures_are_failures() {
     fs::write(dir.path().join("made/ball_mist.png"), "an old picture").unwrap();
     for (body, reason) in [
         ("true", "RISE wrote no ball_mist.png"),
+        ("cp ../black.png ball_mist.png", "ball_mist.png is black"),
+        ("echo x > ball_mist.png", "this is no PNG"),
         ("echo x > ball_mist.png; echo 'derive diagnostic: apply failed'", "RISE says"),
         ("echo x > ball_mist.png; echo 'DataDrivenBSDF:: Signature not found'", "RISE says"),
     ] {
         let rise = renderer(dir.path(), body);
-        let output = bridge(dir.path(), Some(&rise));
+        let output = bridge(dir.path(), Some(&rise), false);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.code() == Some(1) && said.contains(reason), "{body}: {said}");
     }
-    let missing = bridge(dir.path(), Some(Path::new("no/such/program")));
+    let missing = bridge(dir.path(), Some(Path::new("no/such/program")), false);
     assert_eq!(missing.status.code(), Some(2));
+}
+
+#[test]
+fn renders_of_three_wavelengths_become_one_picture() {
+    let dir = tempfile::tempdir().unwrap();
+    let body = "cp ../picture.png ball_mist.png; cp ../picture.exr ball_b00.exr";
+    let rise = renderer(dir.path(), body);
+    let output = bridge(dir.path(), Some(&rise), true);
+    assert!(output.status.success(), "{output:?}");
+    let bytes = fs::read(dir.path().join("made/ball_bands.exr")).unwrap();
+    // All wavelengths have the same radiance: a grey of that value. 32-bit numbers.
+    let picture = Image::read(&bytes).unwrap();
+    assert!(picture.values().iter().all(|x| (x - 0.25).abs() < 1e-6), "{picture:?}");
+    assert!(dir.path().join("made/ball_bands.png").exists());
 }

@@ -2,6 +2,8 @@
 
 mod bands;
 mod error;
+mod even;
 
 pub use bands::Bands;
 pub use error::ExportError;
+pub(crate) use even::{even, quantile};

@@ -11,9 +11,11 @@
 //! | [`Form::Ocean`] | degrees | the same | the same |
 
 mod read;
+mod spread;
 mod write;
 
 pub use read::{Goniometer, Row, read};
+pub use spread::{Spread, choose_axes, spread};
 pub use write::write;
 
 use crate::export::ExportError;
@@ -49,7 +51,12 @@ impl Axes {
         self.thetai.len() * self.thetas.len() * self.phis.len()
     }
 
-    fn check(&self) -> Result<(), ExportError> {
+    /// Whether the nodes rise and lie above the horizon.
+    ///
+    /// # Errors
+    ///
+    /// If they do not.
+    pub fn check(&self) -> Result<(), ExportError> {
         let axes = [
             ("thetai", &self.thetai, 0.0, 90.0),
             ("thetas", &self.thetas, 0.0, 90.0),

@@ -13,15 +13,22 @@
 //! with a density proportional to cos θ_i. Random numbers are a function of pixel, sample and
 //! dimension, so the picture has the same bits on any number of threads.
 //!
+//! For lamps in one direction the first term is a function of the normal alone; it is interpolated
+//! between normals within 1 ‰ (`preview/response.rs`) unless [`Scene::exact`] or spectra are asked
+//! for, which evaluate the model for every sample.
+//!
 //! Limits: no light passes through the body (models of `type` 0 only), lamps are far away, and a
 //! sky seen in a narrow highlight is noisy.
 
 pub mod mesh;
 pub mod shape;
 
+mod frame;
 mod path;
 mod picture;
 mod random;
+mod response;
+mod spectral;
 mod turn;
 
 use glam::DVec3;
@@ -33,10 +40,12 @@ use rayon::prelude::*;
 use scattering::{Basis, Model, Side, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Xyz};
 
-pub use picture::{Polarization, picture, side_by_side};
+pub use picture::{Polarization, brightest, picture, side_by_side};
 pub use shape::Shape;
+pub use spectral::spectral_exr;
 
 use path::Row;
+use response::Response;
 
 /// A lamp far away: a disc of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +95,10 @@ pub struct Scene {
     pub size: [usize; 2],
     /// Samples per pixel.
     pub samples: usize,
+    /// Whether the model is evaluated for every sample.
+    pub exact: bool,
+    /// Whether the film keeps spectra, which evaluates the model for every sample too.
+    pub spectra: bool,
 }
 
 /// A rendered picture: XYZ of the four Stokes components per pixel, row by row from the top.
@@ -95,6 +108,9 @@ pub struct Film {
     pub size: [usize; 2],
     /// XYZ of I, Q, U and V; Y = 1 is a white diffuser that faces a lamp of irradiance 1.
     pub pixels: Vec<[Xyz; 4]>,
+    /// Radiance factors of the pixels if [`Scene::spectra`] asks for them, else nothing: per pixel
+    /// the spectra of I, Q, U and V.
+    pub spectra: Vec<f32>,
 }
 
 /// Renders `material` at `wavelengths` (nm, rising).
@@ -122,6 +138,8 @@ pub fn render(
     if models.iter().any(|model| model.common().side != Side::DownUp) {
         return Err(refused("type", "a body is seen from outside: type = 0".into()));
     }
+    let light = Stokes(scene.light);
+    let responses = responses(scene, &models, &plan);
     let [width, height] = scene.size;
     let done = std::sync::atomic::AtomicUsize::new(0);
     let rows = (0..height)
@@ -130,28 +148,47 @@ pub fn render(
             if control.is_cancelled() {
                 return Err(MaterialError::Cancelled);
             }
-            let row = colours(&Row::trace(scene, y), &models, Stokes(scene.light), width, &plan);
+            let row = Row::trace(scene, &responses, y);
+            let spectra = spectra(&row, &models, light, width);
+            let mut pixels = colours(&spectra, models.len(), &plan);
+            for (x, known) in &row.known {
+                pixels[*x].iter_mut().zip(known).for_each(|(sum, xyz)| *sum += *xyz);
+            }
             let before = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             control.report((before + 1) as f64 / height as f64);
-            match row.iter().position(|[i, ..]| !(i.x + i.y + i.z).is_finite()) {
+            let kept = spectra.into_iter().filter(|_| scene.spectra).map(|x| x as f32).collect();
+            match pixels.iter().position(|[i, ..]| !(i.x + i.y + i.z).is_finite()) {
                 Some(x) => Err(MaterialError::NotFinite(format!("pixel {x}, {y}"))),
-                None => Ok(row),
+                None => Ok((pixels, kept)),
             }
         })
-        .collect::<Result<Vec<_>, MaterialError>>()?;
-    Ok(Film { size: scene.size, pixels: rows.concat() })
+        .collect::<Result<(Vec<_>, Vec<Vec<f32>>), MaterialError>>()?;
+    Ok(Film { size: scene.size, pixels: rows.0.concat(), spectra: rows.1.concat() })
 }
 
-/// XYZ of the pixels of a row.
-fn colours(
-    row: &Row,
-    models: &[Model],
-    light: Stokes,
-    width: usize,
-    plan: &ColourPlan,
-) -> Vec<[Xyz; 4]> {
+/// For each lamp in one direction what the camera sees of it, by the normal.
+fn responses(scene: &Scene, models: &[Model], plan: &ColourPlan) -> Vec<Option<Response>> {
+    if scene.exact || scene.spectra {
+        return Vec::new();
+    }
+    let light = Stokes(scene.light);
+    // A plane has one normal, and as many samples as a sphere: an eighth of them is no loss.
+    let most = scene.size[0] * scene.size[1] * scene.samples / 8;
+    let response = |lamp: &Lamp| {
+        (lamp.radius == 0.0).then(|| {
+            Response::new(lamp.toward, most, &|normals: &[DVec3]| {
+                let row = Row::over_normals(scene, lamp.toward, normals);
+                let spectra = spectra(&row, models, light, normals.len());
+                colours(&spectra, models.len(), plan)
+            })
+        })
+    };
+    scene.lamps.iter().map(response).collect()
+}
+
+/// The spectra of the ways of light of a row: per pixel those of the four Stokes components.
+fn spectra(row: &Row, models: &[Model], light: Stokes, width: usize) -> Vec<f64> {
     let bands = models.len();
-    // Per pixel and component one spectrum.
     let mut spectra = vec![0.0; width * 4 * bands];
     for (band, model) in models.iter().enumerate() {
         let matrices = model.evaluate_local(&row.pairs, Basis::Psps);
@@ -163,10 +200,13 @@ fn colours(
         }
     }
     spectra
-        .chunks_exact(4 * bands)
-        .map(|pixel| {
-            let mut each = pixel.chunks_exact(bands);
-            plan.stokes(std::array::from_fn(|_| each.next().unwrap_or_default()))
-        })
-        .collect()
+}
+
+/// XYZ of the `spectra` of pixels.
+fn colours(spectra: &[f64], bands: usize, plan: &ColourPlan) -> Vec<[Xyz; 4]> {
+    let colour = |pixel: &[f64]| {
+        let mut each = pixel.chunks_exact(bands);
+        plan.stokes(std::array::from_fn(|_| each.next().unwrap_or_default()))
+    };
+    spectra.chunks_exact(4 * bands).map(colour).collect()
 }

@@ -9,4 +9,5 @@ pub mod material;
 pub mod product;
 pub mod program;
 pub mod scene;
+pub mod stack;
 pub mod table;

@@ -3,7 +3,7 @@
 use mist_engine::{Control, material::Material};
 use rise_bridge::{
     export::Bands,
-    goniometer::{Axes, Form, read, write},
+    goniometer::{Axes, Form, choose_axes, read, spread, write},
 };
 use scattering::{Basis, Geometry, Mode};
 
@@ -58,4 +58,20 @@ fn tables_that_were_cut_off_or_changed_are_refused() {
     assert!(read(&wrong, Form::Ocean).unwrap_err().to_string().starts_with("line 5"));
     let flat = Axes { thetas: vec![0.0, 90.0], ..axes() };
     assert!(write(&bands(), &flat, Form::Astm, "x", Vec::new(), &Control::default()).is_err());
+}
+
+#[test]
+fn a_chosen_grid_is_as_near_as_was_asked() {
+    let bands = bands();
+    let coarse = spread(&bands, &axes());
+    assert!(coarse.most > coarse.median && coarse.most > 0.05, "{coarse:?}");
+    let (axes, found) = choose_axes(&bands, 0.05).unwrap();
+    assert!(found.most <= 0.05 && found == spread(&bands, &axes), "{found:?}");
+    let refusal = choose_axes(&bands, 1e-9).unwrap_err().to_string();
+    assert!(refusal.contains("finest grid"), "{refusal}");
+    let white = r#"{"model": "Lambertian_BRDF_Model"}"#;
+    let white = Material::from_json(white).unwrap().prepare(Mode::Sound, None).unwrap();
+    // A constant is met by the coarsest grid, to rounding.
+    let (axes, found) = choose_axes(&Bands::new(&white, &[550.0]).unwrap(), 1e-9).unwrap();
+    assert!(axes.thetai.len() == 6 && found.most < 1e-12, "{found:?}");
 }

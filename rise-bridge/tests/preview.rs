@@ -2,12 +2,13 @@
 
 use std::f64::consts::PI;
 
+use exr::prelude::{ReadChannels as _, ReadLayers as _};
 use glam::DVec3;
 use mist_engine::{
     Control,
     material::{Material, Prepared, query::ColourNames},
 };
-use rise_bridge::preview::{Film, Lamp, LampBasis, Scene, Shape, mesh::Mesh, render};
+use rise_bridge::preview::{Film, Lamp, LampBasis, Scene, Shape, mesh::Mesh, render, spectral_exr};
 use scattering::Mode;
 use spectra::ColourSettings;
 
@@ -36,6 +37,8 @@ fn scene(shape: Shape, lamps: Vec<Lamp>) -> Scene {
         bounce: false,
         size: [16, 16],
         samples: 4,
+        exact: false,
+        spectra: false,
     }
 }
 
@@ -156,4 +159,50 @@ fn a_transmitting_model_and_a_wish_to_stop_are_refused() {
     let control = Control::default();
     control.cancel.store(true, std::sync::atomic::Ordering::Relaxed);
     assert!(render(&white(), &scene, &WAVELENGTHS, settings(), &control).is_err());
+}
+
+#[test]
+fn the_picture_of_interpolated_responses_is_that_of_every_sample() {
+    let paint = r#"{"model":"Shadowed_Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)",
+        "sdf":"Gaussian_Slope_Distribution_Function","sdf.s":0.3}}"#;
+    let paint = material(paint);
+    let lamp = Lamp::at(degrees(60.0), degrees(120.0), 0.0, 2.0);
+    let light = [1.0, 0.2, 0.1, 0.0];
+    let light_basis = LampBasis::Horizontal;
+    let scene = Scene { light, light_basis, size: [192; 2], ..scene(Shape::Sphere, vec![lamp]) };
+    let (fast, slow) =
+        (film(&paint, &scene), film(&paint, &Scene { exact: true, ..scene.clone() }));
+    assert!(fast != slow, "nothing was interpolated");
+    for (a, b) in fast.pixels.iter().zip(&slow.pixels) {
+        for (a, b_part) in a.iter().zip(b) {
+            // The stated error: 1 per mille of the light, or of that of a body of reflectance 0.02.
+            let most = 1e-3 * b[0].y.max(2.0 * 0.02);
+            assert!((a.y - b_part.y).abs() <= most, "{} {} of {}", a.y, b_part.y, b[0].y);
+        }
+    }
+}
+
+#[test]
+fn a_spectral_picture_holds_the_spectra_of_which_the_colours_are() {
+    let lamp = Lamp { toward: DVec3::Z, radius: 0.0, irradiance: 1.0 };
+    let scene = Scene { spectra: true, ..scene(Shape::Plane(0.0), vec![lamp]) };
+    let film = film(&white(), &scene);
+    let middle = 4 * WAVELENGTHS.len() * (16 * 8 + 8);
+    let pixel = &film.spectra[middle..middle + 4 * WAVELENGTHS.len()];
+    // 32-bit numbers.
+    assert!(pixel[..WAVELENGTHS.len()].iter().all(|x| (x - 1.0).abs() < 1e-6), "{pixel:?}");
+    assert!(pixel[WAVELENGTHS.len()..].iter().all(|x| *x == 0.0));
+    let bytes = spectral_exr(&film, &WAVELENGTHS).unwrap();
+    let file = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(std::io::Cursor::new(bytes))
+        .unwrap();
+    let channels = file.layer_data.channel_data.list;
+    let names: Vec<String> = channels.iter().map(|channel| channel.name.to_string()).collect();
+    assert_eq!(names.len(), 28);
+    assert!(names.contains(&"S0.450,000000nm".into()) && names.contains(&"S3.700,000000nm".into()));
 }

@@ -7,7 +7,13 @@ use std::{
 };
 
 use mist_engine::{Control, material::query};
-use rise_bridge::rise::product::{self, Made, Wanted};
+use rise_bridge::{
+    image::Format,
+    rise::{
+        product::{self, Made, Wanted},
+        stack,
+    },
+};
 
 use super::{
     material::{not_exported, refused},
@@ -57,6 +63,13 @@ pub(super) struct Args {
     /// Render the scenes with the program that RISE_BIN names.
     #[arg(long)]
     render: bool,
+    /// Make one picture in colours of the pictures of --bands that lie in --out; --render does so
+    /// by itself.
+    #[arg(long, requires = "bands", conflicts_with = "render")]
+    stack: bool,
+    /// The light of that picture: CIE name, colour temperature or D(temperature).
+    #[arg(long, default_value = "D65", value_name = "NAME")]
+    illuminant: String,
     /// Threads [default: one per processor].
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -92,7 +105,33 @@ pub(super) fn bridge(args: &Args) -> Result<(), Stop> {
         let images = product::images(&text).map_err(not_exported)?;
         print(&renderer.render(&args.out, scene, &images)?)?;
     }
+    if args.bands && (args.render || args.stack) {
+        let stem = format!("{}_bands", source.stem());
+        print(&stacked(&args.out, &stem, &made.bands, &wanted.wavelengths, &args.illuminant)?)?;
+    }
     Ok(())
+}
+
+/// Makes one picture of the `renders` in a folder, as .exr and .png.
+fn stacked(
+    folder: &Path,
+    stem: &str,
+    renders: &[String],
+    wavelengths: &[f64],
+    illuminant: &str,
+) -> Result<String, Stop> {
+    let images = renders.iter().map(|name| render::seen(&folder.join(name)));
+    let images = images.collect::<Result<Vec<_>, String>>().map_err(Stop::Failed)?;
+    let picture = stack::stack(&images, wavelengths, illuminant).map_err(not_exported)?;
+    let mut text = String::new();
+    for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
+        let path = folder.join(format!("{stem}.{extension}"));
+        let failed = |error: String| Stop::Failed(format!("{}: {error}", path.display()));
+        let bytes = picture.write(format).map_err(|error| failed(error.to_string()))?;
+        WholeFile::write_bytes(&path, &bytes).map_err(|error| failed(error.to_string()))?;
+        text += &format!("{}: of {} renders\n", path.display(), renders.len());
+    }
+    Ok(text)
 }
 
 fn save(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<(), Stop> {

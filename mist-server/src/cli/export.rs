@@ -44,6 +44,7 @@ Examples:
   mist export gold.json --format bsdf --spectral --wavelengths 400:10:700 -o gold.bsdf
   mist export gold.json --format bsdf --rgb -o gold_rgb.bsdf
   mist export gold.json --grid thetai=0:15:75,thetas=0:5:85,phis=0:10:180 -o gold.xompt
+  mist export gold.json --grid auto:5 -o gold.xompt
   mist export gold.json --compare measured.pbsdf")]
 pub(super) struct Args {
     /// The material, or a program.
@@ -55,8 +56,8 @@ pub(super) struct Args {
     /// pbsdf, 360:10:830 for colours, else 400:10:700].
     #[arg(long, value_name = "NM")]
     wavelengths: Option<String>,
-    /// Nodes of the table. pbsdf: phi_d x theta_d x theta_h, or auto:PERCENT for the smallest grid
-    /// on which 95 % of the light is nearer than that (37x46x91). bsdf: theta_i x side of an image
+    /// Nodes of the table; for pbsdf and goniometer tables also auto:PERCENT, the smallest grid on
+    /// which 95 % of the light is nearer than that. pbsdf: phi_d x theta_d x theta_h (37x46x91). bsdf: theta_i x side of an image
     /// (24x64), or phi_i x theta_i x side (37x20x48). Goniometer tables: degrees
     /// [thetai=0:10:80,thetas=0:5:85,phis=0:10:180].
     #[arg(long, value_name = "GRID")]
@@ -147,6 +148,14 @@ pub(super) fn export(args: &Args) -> Result<(), Stop> {
     };
     progress.finish();
     print(&said?)
+}
+
+/// The part that `auto:PERCENT` asks for; nothing for other grids.
+fn tolerance(grid: &str) -> Result<Option<f64>, Stop> {
+    let Some(percent) = grid.strip_prefix("auto:") else { return Ok(None) };
+    let part = percent.parse::<f64>().ok().filter(|x| *x > 0.0).map(|x| 0.01 * x);
+    let refused = || Stop::Refused(format!("--grid {grid}: expected a percentage above 0"));
+    part.map(Some).ok_or_else(refused)
 }
 
 fn compare(material: &Prepared, path: &Path, control: &Control) -> Result<String, Stop> {

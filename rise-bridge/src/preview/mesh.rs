@@ -2,9 +2,11 @@
 
 use std::{f64::consts::TAU, io::Cursor};
 
-use glam::{DVec3, dvec3};
+use glam::{DMat3, DVec3, dvec3};
 
 use super::shape::{Hit, Ray};
+
+mod ply;
 
 /// Triangles in a leaf of the tree at most.
 const LEAF: usize = 4;
@@ -127,15 +129,32 @@ impl Mesh {
             (lean(RADII[0] * ring + RADII[1] * normal), lean(normal))
         };
         let (points, normals): (Vec<_>, Vec<_>) = (0..n * n).map(|k| place(k / n, k % n)).unzip();
-        let faces: Vec<_> = (0..n * n)
-            .flat_map(|k| {
-                let (i, j) = (k / n, k % n);
-                let at = |i: usize, j: usize| (i % n) * n + j % n;
-                let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-                [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]
-            })
-            .collect();
+        let faces = quads([n, n]);
         Self::new(&points, &faces, Some(&normals)).expect("a torus has triangles")
+    }
+
+    /// A trefoil knot of a tube, made of `12 n²` triangles.
+    pub fn knot(n: usize) -> Self {
+        const TUBE: f64 = 0.42;
+        let n = n.max(3);
+        let [along, around] = [6 * n, n];
+        // The curve on a torus; it is turned a little, so that no part looks like another one.
+        let curve = |i: usize| {
+            let t = TAU * i as f64 / along as f64;
+            let ring = 2.0 + (3.0 * t).cos();
+            dvec3(ring * (2.0 * t).cos(), ring * (2.0 * t).sin(), 1.3 * (3.0 * t).sin())
+        };
+        let lean = DMat3::from_rotation_x(-0.45) * DMat3::from_rotation_z(0.35);
+        let place = |k: usize| {
+            let (i, v) = (k / around, TAU * (k % around) as f64 / around as f64);
+            let tangent = (curve(i + 1) - curve(i + along - 1)).normalize();
+            let side = tangent.cross(DVec3::Z).normalize();
+            let normal = v.cos() * side + v.sin() * side.cross(tangent);
+            (lean * (curve(i) + TUBE * normal), lean * normal)
+        };
+        let (points, normals): (Vec<_>, Vec<_>) = (0..along * around).map(place).unzip();
+        let faces = quads([along, around]);
+        Self::new(&points, &faces, Some(&normals)).expect("a knot has triangles")
     }
 
     /// The nearest triangle on the way of `ray`, from its outer side or its inner one.
@@ -225,6 +244,17 @@ impl Triangle {
     }
 }
 
+/// Two triangles per square of a net of points that is closed both ways.
+fn quads([rows, columns]: [usize; 2]) -> Vec<[usize; 3]> {
+    let at = |i: usize, j: usize| (i % rows) * columns + j % columns;
+    let square = |k: usize| {
+        let (i, j) = (k / columns, k % columns);
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    (0..rows * columns).flat_map(square).collect()
+}
+
 fn vector(numbers: &[f32]) -> DVec3 {
     dvec3(f64::from(numbers[0]), f64::from(numbers[1]), f64::from(numbers[2]))
 }
@@ -276,6 +306,15 @@ mod tests {
             let nearest = all.map(|hit| hit.distance).fold(f64::INFINITY, f64::min);
             let found = mesh.hit(ray).map_or(f64::INFINITY, |hit| hit.distance);
             assert_eq!(found, nearest, "{k}");
+        }
+    }
+
+    #[test]
+    fn the_normals_of_the_knot_are_those_of_its_triangles() {
+        for triangle in Mesh::knot(24).triangles {
+            let flat = triangle.area().normalize();
+            // The inner sides of bends have the largest triangles.
+            assert!(triangle.normals.iter().all(|normal| normal.dot(flat) > 0.8));
         }
     }
 

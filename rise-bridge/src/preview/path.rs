@@ -4,10 +4,13 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use scattering::{Mueller, Stokes};
+use spectra::Xyz;
 
 use super::{
     LampBasis, Scene,
+    frame::Frame,
     random::Random,
+    response::Response,
     shape::{Hit, Ray, leaving},
     turn::Turn,
 };
@@ -51,21 +54,40 @@ pub(super) struct Row {
     /// Directions (to where the light comes from, to where it goes) in the frames of the surface.
     pub(super) pairs: Vec<(DVec3, DVec3)>,
     pub(super) paths: Vec<Path>,
+    /// Light that is known already, by column.
+    pub(super) known: Vec<(usize, [Xyz; 4])>,
 }
 
 impl Row {
-    /// The ways of light to the pixels of row `y`, from the top.
-    pub(super) fn trace(scene: &Scene, y: usize) -> Self {
+    /// The ways of light to the pixels of row `y`, from the top; one response per lamp, if any.
+    pub(super) fn trace(scene: &Scene, responses: &[Option<Response>], y: usize) -> Self {
         let mut row = Self::default();
         for x in 0..scene.size[0] {
             for sample in 0..scene.samples {
-                row.sample(scene, [x, y], Random::new(x, y, sample));
+                row.sample(scene, responses, [x, y], Random::new(x, y, sample));
             }
         }
         row
     }
 
-    fn sample(&mut self, scene: &Scene, [x, y]: [usize; 2], random: Random) {
+    /// One way from a lamp in the direction `toward` over each of the normals, of weight 1.
+    pub(super) fn over_normals(scene: &Scene, toward: DVec3, normals: &[DVec3]) -> Self {
+        let mut row = Self::default();
+        for (pixel, normal) in normals.iter().enumerate() {
+            let frame = Frame::of(*normal);
+            let lamp = lamp_turn(scene, &frame, toward);
+            row.push(&Seen { frame: &frame, pixel, weight: 1.0 }, 1.0, toward, None, Some(lamp));
+        }
+        row
+    }
+
+    fn sample(
+        &mut self,
+        scene: &Scene,
+        responses: &[Option<Response>],
+        [x, y]: [usize; 2],
+        random: Random,
+    ) {
         let [width, height] = scene.size.map(|n| n as f64);
         let [dx, dy] = random.pair(0);
         let unit = 2.0 * HALF_VIEW / width.min(height);
@@ -73,24 +95,31 @@ impl Row {
         let up = (0.5 * height - y as f64 - dy) * unit;
         let ray = Ray { from: DVec3::new(across, up, FAR), along: -TO_CAMERA };
         let Some(point) = scene.shape.hit(ray).and_then(Point::new) else { return };
-        let seen = Seen { point: &point, pixel: x, weight: PI / scene.samples as f64 };
+        let Point { hit, frame } = &point;
+        let seen = Seen { frame, pixel: x, weight: PI / scene.samples as f64 };
         for light in lit(scene, &point, random, 1) {
-            let lamp = light.turn(scene, &point);
+            let response = responses.get(light.lamp).and_then(Option::as_ref);
+            if let Some(value) = response.and_then(|response| response.at(frame.normal)) {
+                let weight = seen.weight * scene.lamps[light.lamp].irradiance;
+                self.known.push((x, value.map(|xyz| xyz * weight)));
+                continue;
+            }
+            let lamp = lamp_turn(scene, frame, light.toward);
             self.push(&seen, light.weight, light.toward, None, Some(lamp));
         }
         if scene.sky > 0.0 || scene.bounce {
-            self.around(scene, &seen, random);
+            self.around(scene, hit, &seen, random);
         }
     }
 
     /// What comes from one direction that is not a lamp's: the sky, or another point.
-    fn around(&mut self, scene: &Scene, seen: &Seen<'_>, random: Random) {
-        let point = seen.point;
-        let toward = point.cosine_direction(random.pair(100));
-        if toward.dot(point.hit.true_normal) <= 0.0 {
+    fn around(&mut self, scene: &Scene, hit: &Hit, seen: &Seen<'_>, random: Random) {
+        let frame = seen.frame;
+        let toward = frame.cosine_direction(random.pair(100));
+        if toward.dot(hit.true_normal) <= 0.0 {
             return;
         }
-        match scene.shape.hit(leaving(&point.hit, toward)) {
+        match scene.shape.hit(leaving(hit, toward)) {
             None if scene.sky > 0.0 => {
                 // ∫ f L cos dω by a density cos/π, for L = sky/π.
                 self.push(seen, scene.sky, toward, None, None);
@@ -98,10 +127,10 @@ impl Row {
             Some(other) if scene.bounce => {
                 let Some(other) = Point::new(other) else { return };
                 for light in lit(scene, &other, random, 200) {
-                    let first = self.pair(&other, light.toward, -toward);
-                    let leaving = other.s(-toward, light.toward);
-                    let turn = Turn::between(-toward, leaving, point.s(-toward, toward));
-                    let lamp = light.turn(scene, &other);
+                    let first = self.pair(&other.frame, light.toward, -toward);
+                    let leaving = other.frame.s(-toward, light.toward);
+                    let turn = Turn::between(-toward, leaving, frame.s(-toward, toward));
+                    let lamp = lamp_turn(scene, &other.frame, light.toward);
                     self.push(seen, PI * light.weight, toward, Some((first, turn)), Some(lamp));
                 }
             }
@@ -118,41 +147,41 @@ impl Row {
         before: Option<(usize, Turn)>,
         lamp: Option<Turn>,
     ) {
-        let last = self.pair(seen.point, toward, TO_CAMERA);
-        let camera = Turn::between(TO_CAMERA, seen.point.s(TO_CAMERA, toward), DVec3::X);
+        let last = self.pair(seen.frame, toward, TO_CAMERA);
+        let camera = Turn::between(TO_CAMERA, seen.frame.s(TO_CAMERA, toward), DVec3::X);
         let weight = seen.weight * weight;
         self.paths.push(Path { pixel: seen.pixel, weight, last, before, lamp, camera });
     }
 
-    fn pair(&mut self, point: &Point, source: DVec3, viewer: DVec3) -> usize {
-        self.pairs.push((point.local(source), point.local(viewer)));
+    fn pair(&mut self, frame: &Frame, source: DVec3, viewer: DVec3) -> usize {
+        self.pairs.push((frame.local(source), frame.local(viewer)));
         self.pairs.len() - 1
     }
 }
 
 /// What the ways of light over one sample of a pixel have in common.
 struct Seen<'a> {
-    point: &'a Point,
+    frame: &'a Frame,
     pixel: usize,
     weight: f64,
 }
 
 /// A direction from which a lamp lights a point, and E cos θ_i there.
 struct Light {
+    /// Its number.
+    lamp: usize,
     toward: DVec3,
     weight: f64,
 }
 
-impl Light {
-    /// From the basis of the lamp to that of the plane of incidence.
-    fn turn(&self, scene: &Scene, point: &Point) -> Turn {
-        match scene.light_basis {
-            LampBasis::PlaneOfIncidence => Turn::NONE,
-            LampBasis::Horizontal => {
-                let k = -self.toward;
-                let horizontal = DVec3::Y.cross(k).try_normalize().unwrap_or(DVec3::X);
-                Turn::between(k, horizontal, point.s(k, self.toward))
-            }
+/// From the basis of the lamps to that of the plane of incidence of light from `toward`.
+fn lamp_turn(scene: &Scene, frame: &Frame, toward: DVec3) -> Turn {
+    match scene.light_basis {
+        LampBasis::PlaneOfIncidence => Turn::NONE,
+        LampBasis::Horizontal => {
+            let k = -toward;
+            let horizontal = DVec3::Y.cross(k).try_normalize().unwrap_or(DVec3::X);
+            Turn::between(k, horizontal, frame.s(k, toward))
         }
     }
 }
@@ -174,7 +203,7 @@ fn lit(
         let is_lit = cos > 0.0
             && toward.dot(point.hit.true_normal) > 0.0
             && !scene.shape.shades(&point.hit, toward);
-        is_lit.then_some(Light { toward, weight: lamp.irradiance * cos })
+        is_lit.then_some(Light { lamp: number, toward, weight: lamp.irradiance * cos })
     })
 }
 
@@ -187,37 +216,16 @@ fn on_disc(axis: DVec3, radius: f64, [a, b]: [f64; 2]) -> DVec3 {
     (sin * cos_phi * x + sin * sin_phi * y + cos * axis).normalize()
 }
 
-/// A point of the body with its frame: x the fiducial axis (horizontal), z the normal.
+/// A point of the body with its frame.
 struct Point {
     hit: Hit,
-    x: DVec3,
-    y: DVec3,
+    frame: Frame,
 }
 
 impl Point {
     /// The frame of a point that is seen from outside.
     fn new(hit: Hit) -> Option<Self> {
-        let x = DVec3::Y.cross(hit.normal).try_normalize().unwrap_or(DVec3::X);
         let is_sound = hit.normal.is_finite() && hit.true_normal.is_finite();
-        is_sound.then(|| Self { hit, x, y: hit.normal.cross(x) })
-    }
-
-    fn local(&self, v: DVec3) -> DVec3 {
-        DVec3::new(v.dot(self.x), v.dot(self.y), v.dot(self.hit.normal))
-    }
-
-    /// s of a beam along `k` in the plane of `source`: n × k, or its limit where k is along n.
-    fn s(&self, k: DVec3, source: DVec3) -> DVec3 {
-        let n = self.hit.normal;
-        let forward = source.dot(n) * n - source;
-        let limit = || n.cross(forward).try_normalize().unwrap_or(self.y);
-        n.cross(k).try_normalize().unwrap_or_else(limit)
-    }
-
-    /// A direction with the density cos θ/π.
-    fn cosine_direction(&self, [a, b]: [f64; 2]) -> DVec3 {
-        let (sin_phi, cos_phi) = (TAU * b).sin_cos();
-        let (sin, cos) = (a.sqrt(), (1.0 - a).sqrt());
-        sin * cos_phi * self.x + sin * sin_phi * self.y + cos * self.hit.normal
+        is_sound.then(|| Self { hit, frame: Frame::of(hit.normal) })
     }
 }

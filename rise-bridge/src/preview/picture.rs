@@ -22,21 +22,33 @@ pub enum Polarization {
 }
 
 impl Polarization {
-    /// Linear red, green and blue of a pixel; `exposure` multiplies light.
-    fn colour(self, [i, q, u, v]: [Xyz; 4], plan: &ColourPlan, exposure: f64) -> [f64; 3] {
-        let light = match self {
-            Self::All => i,
+    /// The light that is seen of a pixel.
+    fn seen(self, [i, q, u, v]: [Xyz; 4]) -> Xyz {
+        match self {
+            Self::All | Self::Degree => i,
             Self::Linear(angle) => {
                 let (sin, cos) = (2.0 * angle).sin_cos();
                 (i + q * cos + u * sin) * 0.5
             }
             Self::Left => (i + v) * 0.5,
             Self::Right => (i - v) * 0.5,
-            Self::Degree if i.y > 0.0 => return [q.y.hypot(u.y) / i.y; 3],
-            Self::Degree => return [0.0; 3],
-        };
-        plan.rgb(light).map(|linear| exposure * linear)
+        }
     }
+
+    /// Linear red, green and blue of a pixel; `exposure` multiplies light.
+    fn colour(self, pixel: [Xyz; 4], plan: &ColourPlan, exposure: f64) -> [f64; 3] {
+        let [i, q, u, _] = pixel;
+        match self {
+            Self::Degree if i.y > 0.0 => [q.y.hypot(u.y) / i.y; 3],
+            Self::Degree => [0.0; 3],
+            _ => plan.rgb(self.seen(pixel)).map(|linear| exposure * linear),
+        }
+    }
+}
+
+/// Y of the brightest pixel behind the filter; 1 is a white diffuser that faces a lamp.
+pub fn brightest(film: &Film, filter: Polarization) -> f64 {
+    film.pixels.iter().map(|pixel| filter.seen(*pixel).y).fold(0.0, f64::max)
 }
 
 /// What is shown of the film; `exposure` multiplies its light.

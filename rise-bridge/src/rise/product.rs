@@ -52,6 +52,8 @@ pub struct Made {
     pub files: BTreeMap<String, Vec<u8>>,
     /// Scenes that can be rendered, by the names of their files.
     pub scenes: Vec<String>,
+    /// The pictures of product B, render by render; [`super::stack::stack`] makes one of them.
+    pub bands: Vec<String>,
     /// The tables by the names of their files.
     pub tables: BTreeMap<String, RingTable>,
     /// What was left as it is, with the reason.
@@ -141,7 +143,7 @@ fn one(
 }
 
 /// Which wavelengths stand in the place of red, green and blue, render by render.
-fn triples(count: usize) -> impl Iterator<Item = [usize; 3]> {
+pub(super) fn triples(count: usize) -> impl Iterator<Item = [usize; 3]> {
     (0..count).step_by(3).map(move |first| [0, 1, 2].map(|k| (first + k).min(count - 1)))
 }
 
@@ -313,6 +315,7 @@ fn scenes(
         let tag = format!("b{band:02}");
         let text = scene(&tag, made, &|shown| shown.bands[band].clone(), true);
         add(made, &tag, text);
+        made.bands.push(format!("{stem}_{tag}.exr"));
     }
 }
 

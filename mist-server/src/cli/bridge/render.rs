@@ -12,7 +12,22 @@ use std::{
     time::Instant,
 };
 
+use rise_bridge::image::{Format, Image};
+
 use super::Stop;
+
+/// The picture at `path`, which must show something.
+pub(super) fn seen(path: &Path) -> Result<Image, String> {
+    let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let image = Image::read(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;
+    if image.values().iter().all(|value| *value == 0.0) {
+        return Err(format!("{} is black", path.display()));
+    }
+    if image.values().iter().any(|value| !value.is_finite()) {
+        return Err(format!("{} has values that are no numbers", path.display()));
+    }
+    Ok(image)
+}
 
 /// The environment variable that names the program.
 const VARIABLE: &str = "RISE_BIN";
@@ -74,6 +89,9 @@ impl Renderer {
             let size = fs::metadata(folder.join(image)).map_or(0, |data| data.len());
             if size == 0 {
                 return Err(failed(format!("RISE wrote no {image}")));
+            }
+            if Format::of_name(image).is_some() {
+                seen(&folder.join(image)).map_err(&failed)?;
             }
         }
         let seconds = started.elapsed().as_secs_f64();

@@ -2,7 +2,7 @@
 
 use rise_bridge::mitsuba::{axes::Axes, pbsdf};
 
-use super::{Stop, Work, not_exported};
+use super::{Stop, Work, not_exported, tolerance};
 
 /// Nodes of a table for which no grid was asked.
 const GRID: &str = "37x46x91";
@@ -13,13 +13,8 @@ pub(super) fn write(work: &Work<'_>) -> Result<String, Stop> {
     let bands = pbsdf::bands(&work.material, &work.wavelengths, !args.plugin);
     let bands = bands.map_err(not_exported)?;
     let grid = args.grid.as_deref().unwrap_or(GRID);
-    let (axes, spread) = match grid.strip_prefix("auto:") {
-        Some(percent) => {
-            let tolerance = percent.parse::<f64>().ok().filter(|x| *x > 0.0).ok_or_else(|| {
-                Stop::Refused(format!("--grid auto:{percent}: expected a percentage above 0"))
-            })?;
-            pbsdf::choose_axes(&bands, 0.01 * tolerance, args.uniform).map_err(not_exported)?
-        }
+    let (axes, spread) = match tolerance(grid)? {
+        Some(part) => pbsdf::choose_axes(&bands, part, args.uniform).map_err(not_exported)?,
         None => {
             let axes = Axes::parse(grid, args.uniform).map_err(not_exported)?;
             let spread = pbsdf::spread(&bands, &axes);

@@ -13,14 +13,10 @@ use super::{
     matrices,
     table::{Place, corners},
 };
-use crate::export::{Bands, ExportError};
+use crate::export::{Bands, ExportError, even, quantile};
 
 /// Directions in which table and material are compared.
 const SAMPLES: usize = 4096;
-/// Steps of an even sequence in three dimensions: the powers of 1/1.2207440846.
-///
-/// M. Roberts, *The unreasonable effectiveness of quasirandom sequences* (2018).
-const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
 /// Grids that are tried, from small to large: nodes of φ_d, θ_d, θ_h.
 const LADDER: [[usize; 3]; 6] =
     [[19, 23, 46], [37, 46, 91], [37, 91, 181], [73, 91, 181], [73, 181, 361], [145, 181, 721]];
@@ -40,18 +36,10 @@ pub struct Spread {
 pub fn spread(bands: &Bands, axes: &Axes) -> Spread {
     let samples: Vec<[f64; 3]> =
         (0..SAMPLES).into_par_iter().flat_map_iter(|n| sample(bands, axes, n)).collect();
-    let quantile = |column: usize, part: f64| {
-        let mut pairs: Vec<(f64, f64)> = samples.iter().map(|s| (s[column], s[0])).collect();
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let all: f64 = pairs.iter().map(|pair| pair.1).sum();
-        let mut sum = 0.0;
-        let found = pairs.iter().find(|pair| {
-            sum += pair.1;
-            sum >= part * all
-        });
-        found.map_or(0.0, |pair| pair.0)
+    let of = |column: usize, part: f64| {
+        quantile(samples.iter().map(|sample| (sample[column], sample[0])).collect(), part)
     };
-    Spread { median: quantile(1, 0.5), most: quantile(1, 0.95), polarization: quantile(2, 0.95) }
+    Spread { median: of(1, 0.5), most: of(1, 0.95), polarization: of(2, 0.95) }
 }
 
 /// The smallest grid of a ladder on which 95 % of the light has a relative error below `tolerance`.
@@ -87,7 +75,7 @@ pub fn choose_axes(
 /// Per wavelength (light, relative error of M00, largest error of an element over M00) at the
 /// n-th pair of directions; nothing if one of them is below the horizon.
 fn sample(bands: &Bands, axes: &Axes, n: usize) -> Vec<[f64; 3]> {
-    let [x, y, z] = STEPS.map(|step| (0.5 + n as f64 * step).fract());
+    let [x, y, z] = even(n);
     let at = HalfAngles { phi_d: TAU * x - PI, theta_d: FRAC_PI_2 * y, theta_h: FRAC_PI_2 * z * z };
     let (l, v) = at.directions();
     if l.z < LOWEST || v.z < LOWEST {

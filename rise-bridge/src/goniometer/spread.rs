@@ -1,0 +1,107 @@
+//! How far a table is from its material between its nodes, and the smallest grid that is near.
+
+use rayon::prelude::*;
+use scattering::{Basis, Geometry, Model};
+
+use super::Axes;
+use crate::export::{Bands, ExportError, even, quantile};
+
+/// Directions in which table and material are compared.
+const SAMPLES: usize = 4096;
+/// Steps of θ_i, θ_s and φ_s in degrees that are tried, from coarse to fine.
+const LADDER: [[f64; 3]; 6] = [
+    [16.0, 17.0, 20.0],
+    [10.0, 5.0, 10.0],
+    [5.0, 5.0, 5.0],
+    [5.0, 2.5, 5.0],
+    [2.5, 2.5, 2.5],
+    [2.5, 1.25, 1.25],
+];
+/// Largest θ_i, θ_s and φ_s of a chosen grid, degrees.
+const ENDS: [f64; 3] = [80.0, 85.0, 180.0];
+
+/// Relative errors of f by linear interpolation in the three angles, over all wavelengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Half of the light has a smaller one.
+    pub median: f64,
+    /// 95 % of the light has.
+    pub most: f64,
+}
+
+/// The error of linear interpolation between the nodes of `axes`.
+pub fn spread(bands: &Bands, axes: &Axes) -> Spread {
+    let samples = (0..SAMPLES).into_par_iter().flat_map_iter(|n| sample(bands, axes, n));
+    let samples: Vec<(f64, f64)> = samples.collect();
+    Spread { median: quantile(samples.clone(), 0.5), most: quantile(samples, 0.95) }
+}
+
+/// The coarsest grid of a ladder on which 95 % of the light has an error below `tolerance`.
+///
+/// # Errors
+///
+/// If the finest is still too coarse.
+pub fn choose_axes(bands: &Bands, tolerance: f64) -> Result<(Axes, Spread), ExportError> {
+    let mut last = f64::INFINITY;
+    for steps in LADDER {
+        let nodes = |k: usize| {
+            let count = (ENDS[k] / steps[k]).round() as usize;
+            (0..=count).map(|i| steps[k] * i as f64).collect()
+        };
+        let axes = Axes { thetai: nodes(0), thetas: nodes(1), phis: nodes(2) };
+        let found = spread(bands, &axes);
+        if found.most <= tolerance {
+            return Ok((axes, found));
+        }
+        last = found.most;
+    }
+    let [i, s, phi] = LADDER[LADDER.len() - 1];
+    let problem = format!(
+        "the finest grid, steps of {i}, {s} and {phi} degrees, has an error of {:.2} %, more than \
+         {:.2} %; give the nodes around the highlight",
+        100.0 * last,
+        100.0 * tolerance
+    );
+    Err(ExportError::refused("grid", problem))
+}
+
+/// Per wavelength (relative error, light) at the n-th direction inside the table.
+fn sample(bands: &Bands, axes: &Axes, n: usize) -> Vec<(f64, f64)> {
+    let parts = even(n);
+    let axes = [&axes.thetai, &axes.thetas, &axes.phis];
+    let at: [f64; 3] = std::array::from_fn(|k| {
+        let (first, last) = (axes[k][0], axes[k][axes[k].len() - 1]);
+        first + parts[k] * (last - first)
+    });
+    let geometry = |[i, s, phi]: [f64; 3]| Geometry {
+        theta_i: i.to_radians(),
+        theta_s: s.to_radians(),
+        phi_s: phi.to_radians(),
+        rotation: 0.0,
+    };
+    let measure = [0, 1].map(|k: usize| at[k].to_radians().sin_cos()).map(|(sin, cos)| sin * cos);
+    let corners = corners(axes, at);
+    let compared = |model: &Model| {
+        let value = |at| model.mueller(&geometry(at), Basis::Psps)[(0, 0)];
+        let exact = value(at);
+        let table: f64 = corners.iter().map(|(node, weight)| weight * value(*node)).sum();
+        (exact > 0.0).then(|| ((table - exact).abs() / exact, measure[0] * measure[1] * exact))
+    };
+    bands.models().iter().filter_map(compared).collect()
+}
+
+/// The nodes around a place, and their weights.
+fn corners(axes: [&Vec<f64>; 3], at: [f64; 3]) -> Vec<([f64; 3], f64)> {
+    let sides: [[(f64, f64); 2]; 3] = std::array::from_fn(|k| {
+        let nodes = axes[k];
+        let upper = nodes.partition_point(|node| *node <= at[k]).min(nodes.len() - 1);
+        let (low, high) = (nodes[upper.saturating_sub(1)], nodes[upper]);
+        let part = if high > low { (at[k] - low) / (high - low) } else { 0.0 };
+        [(low, 1.0 - part), (high, part)]
+    });
+    let corner = |c: usize| {
+        let picked: [(f64, f64); 3] = std::array::from_fn(|k| sides[k][c >> k & 1]);
+        (picked.map(|side| side.0), picked.iter().map(|side| side.1).product::<f64>())
+    };
+    (0..8).map(corner).filter(|(_, weight)| *weight > 0.0).collect()
+}
