@@ -11,10 +11,19 @@ export class Problem extends Error {
   }
 }
 
+const KEY = "key";
+
+/** The key of a service that wants one. It is kept until the tab is closed, and never shared. */
+export const key = {
+  get: () => sessionStorage.getItem(KEY) ?? "",
+  set: (text) => sessionStorage.setItem(KEY, text),
+};
+
 async function ask(path, options = {}) {
+  const headers = key.get() ? { ...options.headers, Authorization: `Bearer ${key.get()}` } : options.headers;
   let response;
   try {
-    response = await fetch(path, options);
+    response = await fetch(path, { ...options, headers });
   } catch (error) {
     if (error.name === "AbortError") throw error;
     throw new Problem(0, { message: "the service does not answer" });
@@ -43,6 +52,10 @@ export const models = async () => (await ask("v1/models")).json();
 /** Mueller matrices of {model, parameters, files, geometries}, angles in radians. */
 export const evaluate = async (request, signal) =>
   (await (await ask("v1/evaluate", posted(request, signal))).json()).mueller;
+
+/** What is wrong with {program, files, compat}: [{line, column, message, help}]. */
+export const check = async (request, signal) =>
+  (await (await ask("v1/check", posted(request, signal))).json()).diagnostics;
 
 /** Starts a job of {program, files, compat}; its id. */
 export const start = async (request) =>

@@ -1,6 +1,6 @@
 // The page: inputs on the left, views on the right, one state between them.
 
-import { models } from "./api.js";
+import { check, key, models } from "./api.js";
 import * as ball from "./ball.js";
 import { make } from "./dom.js";
 import { Editor } from "./editor.js";
@@ -28,16 +28,35 @@ const VIEWS = {
 const SILENT = new Set(["exposure", "angle"]);
 
 if (!state.program) state.program = PROGRAM;
-const editor = new Editor(state.program, (program) => later({ program }), () => run());
+const editor = new Editor(state.program, typed, () => run());
 const runner = new Runner(
   { run: element("run"), cancel: element("cancel"), progress: element("progress"), status: element("status") },
   () => set({ view: state.view === "hemisphere" ? "hemisphere" : "graph" }),
   refused);
 
+const request = () => ({ program: editor.text, files: state.files, compat: state.compat });
+
 function run() {
   editor.mark([]);
   clear();
-  runner.go({ program: editor.text, files: state.files, compat: state.compat });
+  runner.go(request());
+}
+
+let checking = null;
+/** Remembers a program and marks its mistakes when typing pauses. */
+function typed(program) {
+  checking?.abort();
+  checking = new AbortController();
+  const { signal } = checking;
+  later(async () => {
+    set({ program });
+    try {
+      const found = await check(request(), signal);
+      if (!signal.aborted) editor.mark(found);
+    } catch (error) {
+      if (!signal.aborted) refused(error);
+    }
+  });
 }
 
 /** Tells what is wrong: at its place if it has one. */
@@ -53,10 +72,10 @@ function clear() {
 }
 
 let waiting = null;
-/** Changes the state when typing pauses. */
-function later(changes) {
+/** Does `work` when typing pauses. */
+function later(work) {
   clearTimeout(waiting);
-  waiting = setTimeout(() => set(changes), 400);
+  waiting = setTimeout(work, 400);
 }
 
 let asked = null;
@@ -125,6 +144,13 @@ async function begin() {
     await navigator.clipboard?.writeText(location.href).catch(() => {});
     element("share").textContent = "Copied";
     setTimeout(() => { element("share").textContent = "Copy link"; }, 1500);
+  });
+  // A link into the page that is open already.
+  addEventListener("hashchange", () => location.reload());
+  element("key").value = key.get();
+  element("key").addEventListener("change", () => {
+    key.set(element("key").value.trim());
+    location.reload();
   });
   element("editor").append(editor.element);
   element("run").addEventListener("click", run);

@@ -90,17 +90,20 @@ fn the_header_for_cpp_reads_tables_as_they_are_and_refuses_cut_ones() {
     let Some(built) = run(compiler.arg(clients().join("cpp/example.cpp"))) else { return };
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
 
+    let service = Service::start();
     let material =
         r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","sdf.s":0.3}}"#;
-    fs::write(dir.path().join("glass.json"), material).unwrap();
+    let glass = format!("{}/v1/materials/glass", service.url);
     let table = dir.path().join("glass.mtab");
-    let made = Command::new(env!("CARGO_BIN_EXE_mist"))
-        .args(["table", "glass.json", "--grid", "thetai=0:15:75,thetas=0:15:75,phis=0:30:180"])
-        .args(["--lambda", "400:50:700", "--stokes", "-o", "glass.mtab"])
-        .current_dir(dir.path())
-        .output()
-        .unwrap();
-    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let query = "thetai=0:15:75&thetas=0:15:75&phis=0:30:180&lambda=400:50:700&stokes=1";
+    let mut put = Command::new("curl");
+    put.args(["-sSf", "-X", "PUT", "-d", material, &glass]);
+    let mut get = Command::new("curl");
+    get.args(["-sSf", &format!("{glass}/table.mtab?{query}"), "-o"]).arg(&table);
+    for command in [&mut put, &mut get] {
+        let Some(asked) = run(command) else { return };
+        assert!(asked.status.success(), "{}", String::from_utf8_lossy(&asked.stderr));
+    }
 
     // At a node, and at its mirror image behind the mirrored filter.
     let text = fs::read_to_string(&table).unwrap();

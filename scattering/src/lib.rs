@@ -48,4 +48,4 @@ pub use models::{Brdf, Model};
 pub use notice::{Limit, Notice};
 pub use polarization::{Basis, Jones, Mueller, Stokes};
 pub use spec::{Class, Family, Kind, Node, Param, ParamError, Spec, Value};
-pub use vectors::{Surface, SurfaceError};
+pub use vectors::{Pairs, Surface, SurfaceError};

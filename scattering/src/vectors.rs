@@ -144,41 +144,66 @@ impl Model {
     ///
     /// As [`Model::mueller_between`]; pairs of one source that follow each other share its work.
     pub fn evaluate_local(&self, pairs: &[(DVec3, DVec3)], basis: Basis) -> Vec<Mueller> {
+        let seen = Pairs::new(self.common().side, pairs);
+        let mut matrices = vec![Mueller::ZERO; seen.places.len()];
+        self.evaluate_pairs(&seen, basis, &mut matrices);
         let mut out = vec![Mueller::ZERO; pairs.len()];
-        let mut rest = &mut out[..];
-        let mut batch = Batch::default();
-        for run in pairs.chunk_by(|a, b| a.0 == b.0) {
-            let (own, others) = rest.split_at_mut(run.len());
-            batch.evaluate(self, run, basis, own);
-            rest = others;
+        for (place, m) in seen.places.iter().zip(&matrices) {
+            out[*place] = *m;
         }
         out
     }
+
+    /// Mueller BRDFs (1/sr) of the pairs that have light, in their order: `out` has one matrix for
+    /// each of [`Pairs::places`]. The model has the side for which the pairs were made.
+    pub fn evaluate_pairs(&self, pairs: &Pairs, basis: Basis, mut out: &mut [Mueller]) {
+        let mut directions = &pairs.directions[..];
+        for (incidence, count) in &pairs.sources {
+            let (own, others) = directions.split_at(*count);
+            let (matrices, rest) = out.split_at_mut(*count);
+            self.evaluate(incidence, own, basis, matrices);
+            (directions, out) = (others, rest);
+        }
+    }
 }
 
-/// The directions that a model sees of one source, and where their matrices go.
-#[derive(Default)]
-struct Batch {
-    places: Vec<usize>,
+/// Pairs of vectors in a local frame as models on one side see them: for many models, such as
+/// those of many wavelengths, the angles are computed once.
+#[derive(Clone, Debug, Default)]
+pub struct Pairs {
+    /// Each source, and how many directions follow it.
+    sources: Vec<(Incidence, usize)>,
     directions: Vec<Direction>,
-    matrices: Vec<Mueller>,
+    places: Vec<usize>,
 }
 
-impl Batch {
-    /// The matrices of `pairs`, which have one source; `out` stays zero where there is no light.
-    fn evaluate(
-        &mut self,
-        model: &Model,
-        pairs: &[(DVec3, DVec3)],
-        basis: Basis,
-        out: &mut [Mueller],
-    ) {
+impl Pairs {
+    /// The `pairs` (to the source, to the viewer) whose light passes on `side`.
+    pub fn new(side: Side, pairs: &[(DVec3, DVec3)]) -> Self {
+        let mut seen = Self {
+            sources: Vec::new(),
+            directions: Vec::with_capacity(pairs.len()),
+            places: Vec::with_capacity(pairs.len()),
+        };
+        let mut place = 0;
+        for run in pairs.chunk_by(|a, b| a.0 == b.0) {
+            seen.add(side, run, place);
+            place += run.len();
+        }
+        seen
+    }
+
+    /// Which of the pairs have light.
+    pub fn places(&self) -> &[usize] {
+        &self.places
+    }
+
+    /// Adds pairs of one source, the first of which has the number `first`.
+    fn add(&mut self, side: Side, pairs: &[(DVec3, DVec3)], first: usize) {
         let Some(source) = unit(pairs[0].0) else { return };
-        let side = model.common().side;
-        self.places.clear();
-        self.directions.clear();
+        let before = self.directions.len();
         let mut beam = None;
-        for (place, (_, viewer)) in pairs.iter().enumerate() {
+        for (place, (_, viewer)) in (first..).zip(pairs) {
             let seen = unit(*viewer).and_then(|viewer| geometry(side, source, viewer));
             if let Some((incidence, direction)) = seen {
                 beam = Some(incidence);
@@ -186,11 +211,8 @@ impl Batch {
                 self.directions.push(direction);
             }
         }
-        let Some(beam) = beam else { return };
-        self.matrices.resize(self.places.len(), Mueller::ZERO);
-        model.evaluate(&beam, &self.directions, basis, &mut self.matrices);
-        for (place, m) in self.places.iter().zip(&self.matrices) {
-            out[*place] = *m;
+        if let Some(beam) = beam {
+            self.sources.push((beam, self.directions.len() - before));
         }
     }
 }

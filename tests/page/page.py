@@ -8,10 +8,13 @@ needs /usr/bin/chromium and /usr/bin/chromedriver (Debian: chromium, chromium-dr
 """
 
 import argparse
+import contextlib
+import hashlib
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import time
 
 from selenium import webdriver
@@ -84,6 +87,10 @@ class Page:
             let s = 0; for (const b of d) s += b; return s / d.length;"""
         return self.driver.execute_script(script, name)
 
+    def pixels_of(self, name):
+        """As `pixels`, 0 while there is no such canvas."""
+        return self.driver.find_elements(By.ID, name) and self.pixels(name)
+
     def picture(self, name):
         if self.screenshots:
             self.driver.save_screenshot(str(self.screenshots / f"{name}.png"))
@@ -151,6 +158,18 @@ def a_mistake_is_marked_at_its_line(page):
     page.picture("mistake")
 
 
+def a_mistake_is_marked_while_typing(page):
+    page.open()
+    page.press("tab-program")
+    page.view("graph")
+    page.write(LONG.replace("incidentpol = (1,0,0,0)", "incidentpol = (1,0,0,"))
+    page.wait("the mark", lambda: page.driver.find_elements(By.CSS_SELECTOR, ".marks button"))
+    assert page.driver.find_element(By.CSS_SELECTOR, ".editor .wrong").text == "3"
+    page.picture("typing")
+    page.write(LONG)
+    page.wait("no mark", lambda: not page.driver.find_elements(By.CSS_SELECTOR, ".marks button"))
+
+
 def a_long_run_is_cancelled(page):
     page.open()
     page.press("tab-program")
@@ -180,6 +199,16 @@ def tabs_are_chosen_with_the_arrow_keys(page):
     page.picture("other-theme")
 
 
+def a_service_with_keys_opens_with_a_key(page):
+    page.driver.get(page.url)
+    page.wait("the refusal", lambda: "key" in page.at("problem").text)
+    page.at("key").send_keys("k", Keys.TAB)
+    page.wait("the view", lambda: page.pixels_of("ball-plain"))
+    assert not page.at("problem").is_displayed()
+    page.press("share")
+    assert "key" not in page.driver.current_url
+
+
 TESTS = [
     a_parameter_that_is_edited_changes_the_ball,
     the_filter_turns_by_its_slider,
@@ -187,6 +216,7 @@ TESTS = [
     another_model_brings_its_own_parameters,
     a_program_runs_and_its_columns_are_drawn,
     a_mistake_is_marked_at_its_line,
+    a_mistake_is_marked_while_typing,
     a_long_run_is_cancelled,
     a_link_carries_the_state,
     tabs_are_chosen_with_the_arrow_keys,
@@ -205,22 +235,32 @@ def main():
     for flag in FLAGS.split():
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    command = [given.mist, "serve", "--listen", "127.0.0.1:0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
-        driver = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
-        try:
+    driver = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
+    with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as stack:
+        stack.callback(driver.quit)
+        keys = pathlib.Path(folder, "keys")
+        keys.write_text(f"all read,run {hashlib.sha256(b'k').hexdigest()}\n")
+        for more, tests in [([], TESTS), (["--keys", str(keys)], [a_service_with_keys_opens_with_a_key])]:
+            server = stack.enter_context(running([given.mist, "serve", "--listen", "127.0.0.1:0", *more]))
             page = Page(driver, address(server), given.screenshots)
-            for test in TESTS:
+            for test in tests:
                 test(page)
                 print("ok", test.__name__.replace("_", " "), flush=True)
-            # A refused program is an answer with status 422, which the browser's log has too.
-            log = driver.get_log("browser")
-            errors = [e for e in log if e["level"] == "SEVERE" and "status of 422" not in e["message"]]
-            assert not errors, errors
+        # A refused program is an answer with status 422, one without a key 401: the log has them too.
+        errors = [e for e in driver.get_log("browser") if e["level"] == "SEVERE"]
+        errors = [e for e in errors if not re.search("status of (422|401)", e["message"])]
+        assert not errors, errors
+    print(f"{len(TESTS) + 1} passed")
+
+
+@contextlib.contextmanager
+def running(command):
+    """A process that ends with the block."""
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        try:
+            yield process
         finally:
-            driver.quit()
-            server.terminate()
-    print(f"{len(TESTS)} passed")
+            process.terminate()
 
 
 def address(server):

@@ -6,7 +6,7 @@
 //! $$ \mathrm{RGB}_c = \sum_{\lambda,k} w_{ck}(\lambda)\,[\mathbf{M}(\lambda)\,\mathbf{S}]_k $$
 
 use glam::DVec3;
-use scattering::{Basis, Model, Mueller, Stokes};
+use scattering::{Basis, Model, Mueller, Pairs, Side, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid};
 
 use super::{MaterialError, Prepared, table::scale};
@@ -137,42 +137,60 @@ impl Lobes {
     }
 
     fn batch(&self, pairs: &[(DVec3, DVec3)], out: Out, answers: &mut [f32]) {
-        let mut colours = vec![[0.0; 3]; pairs.len()];
+        // The side is no matter of the wavelength.
+        let side = self.models.first().map_or(Side::DownUp, |model| model.common().side);
+        let seen = Pairs::new(side, pairs);
+        let mut matrices = vec![Mueller::ZERO; seen.places().len()];
+        let mut colours = vec![[0.0; 3]; matrices.len()];
         let width = self.width(out);
         for (at, model) in self.models.iter().enumerate() {
-            let mut matrices = model.evaluate_local(pairs, self.basis);
+            matrices.fill(Mueller::ZERO);
+            model.evaluate_pairs(&seen, self.basis, &mut matrices);
             if let Some(turn) = self.turn {
-                for (m, (source, viewer)) in matrices.iter_mut().zip(pairs) {
+                for (m, place) in matrices.iter_mut().zip(seen.places()) {
                     if *m != Mueller::ZERO {
-                        *m = turn(*m, *source, *viewer);
+                        *m = turn(*m, pairs[*place].0, pairs[*place].1);
                     }
                 }
             }
-            for (pair, m) in matrices.iter().enumerate() {
-                let place = &mut answers[pair * width..(pair + 1) * width];
-                match out {
-                    Out::Rgb => self.add(&mut colours[pair], m, at),
-                    Out::Spectral => place[at] = (self.scale * (*m * self.light).0[0]) as f32,
-                    Out::Mueller => {
-                        let numbers = m.to_row_major().map(|x| x as f32);
-                        place[16 * at..16 * (at + 1)].copy_from_slice(&numbers);
-                    }
+            if out == Out::Rgb {
+                self.add(&mut colours, &matrices, at);
+                continue;
+            }
+            for (m, place) in matrices.iter().zip(seen.places()) {
+                let numbers = &mut answers[place * width..(place + 1) * width];
+                if out == Out::Spectral {
+                    numbers[at] = (self.scale * self.component(m, 0)) as f32;
+                } else {
+                    let row = m.to_row_major().map(|x| x as f32);
+                    numbers[16 * at..16 * (at + 1)].copy_from_slice(&row);
                 }
             }
         }
         if out == Out::Rgb {
-            for (place, colour) in answers.chunks_mut(3).zip(&colours) {
-                place.copy_from_slice(&colour.map(|x| x as f32));
+            for (colour, place) in colours.iter().zip(seen.places()) {
+                answers[3 * place..3 * (place + 1)].copy_from_slice(&colour.map(|x| x as f32));
             }
         }
     }
 
+    /// A Stokes component of the exit light.
+    fn component(&self, m: &Mueller, row: usize) -> f64 {
+        m.0[row].iter().zip(&self.light.0).map(|(m, light)| m * light).sum()
+    }
+
     /// Adds what the wavelength number `at` gives.
-    fn add(&self, colour: &mut [f64; 3], m: &Mueller, at: usize) {
-        let exit = *m * self.light;
-        for (component, weight) in exit.0.iter().zip(&self.weights[at]) {
-            for (sum, w) in colour.iter_mut().zip(weight) {
-                *sum += self.scale * component * w;
+    fn add(&self, colours: &mut [[f64; 3]], matrices: &[Mueller], at: usize) {
+        for (row, weight) in self.weights[at].iter().enumerate() {
+            // Without a filter only the intensity has a colour.
+            if *weight == [0.0; 3] {
+                continue;
+            }
+            for (colour, m) in colours.iter_mut().zip(matrices) {
+                let light = self.scale * self.component(m, row);
+                for (sum, w) in colour.iter_mut().zip(weight) {
+                    *sum += light * w;
+                }
             }
         }
     }

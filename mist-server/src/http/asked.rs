@@ -2,7 +2,7 @@
 
 use axum::{
     extract::{FromRequestParts, Query},
-    http::request::Parts,
+    http::{Uri, request::Parts},
 };
 use mist_engine::material::{lobes::View, query::ColourNames, table::TableRequest};
 use rise_bridge::write::Style;
@@ -70,10 +70,16 @@ pub(super) struct Asked {
 impl<S: Send + Sync> FromRequestParts<S> for Asked {
     type Rejection = ApiError;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ApiError> {
-        let Query(asked) = Query::<Self>::from_request_parts(parts, state)
-            .await
-            .map_err(|error| ApiError::Query(error.body_text()))?;
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, ApiError> {
+        Self::of(&parts.uri)
+    }
+}
+
+impl Asked {
+    /// What the query of an address says.
+    pub(super) fn of(uri: &Uri) -> Result<Self, ApiError> {
+        let Query(asked) =
+            Query::<Self>::try_from_uri(uri).map_err(|error| ApiError::Query(error.body_text()))?;
         let refuse = |text: &str| Err(ApiError::Query(text.into()));
         if asked.digits.is_some_and(|digits| !(1..=17).contains(&digits)) {
             return refuse("digits is from 1 to 17");
@@ -89,9 +95,7 @@ impl<S: Send + Sync> FromRequestParts<S> for Asked {
         }
         Ok(asked)
     }
-}
 
-impl Asked {
     /// How the text of the table is written.
     pub(super) fn style(&self) -> Style {
         let plain = Style::default();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use axum::{
     Json,
     extract::State,
-    http::header,
+    http::{Uri, header},
     response::{IntoResponse, Response},
 };
 use glam::DVec3;
@@ -78,23 +78,26 @@ pub(super) async fn angles(
 pub(super) async fn vectors(
     State(app): State<App>,
     Path(name): Path<String>,
-    asked: Asked,
+    uri: Uri,
     Body(body): Body,
 ) -> Result<Response, ApiError> {
-    let out = Out::parse(asked.out().unwrap_or("rgb"))?;
     let pairs = pairs(&body)?;
     let kept = app.materials.find(&name)?;
-    let lobes = lobes(&app, kept, &asked).await?;
-    lobes.check(out)?;
-    admit(&app, &lobes, pairs.len(), out)?;
+    let ready = ready(&app, kept, &uri).await?;
+    let Ready { lobes, out } = &*ready;
+    let out = *out;
+    admit(&app, lobes, pairs.len(), out)?;
     let evaluations = pairs.len() * lobes.wavelengths();
     app.metrics.count_evaluations(evaluations);
     let answer = if evaluations <= AT_ONCE {
         lobes.evaluate(&pairs, out)
     } else {
-        app.compute_in_time(move || in_parallel(&lobes, &pairs, out)).await?
+        app.compute_in_time(move || in_parallel(&ready.lobes, &pairs, out)).await?
     };
-    let bytes: Vec<u8> = answer.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let mut bytes = Vec::with_capacity(4 * answer.len());
+    for x in &answer {
+        bytes.extend_from_slice(&x.to_le_bytes());
+    }
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], bytes).into_response())
 }
 
@@ -117,15 +120,25 @@ fn pairs(body: &[u8]) -> Result<Vec<(DVec3, DVec3)>, ApiError> {
     Ok(body.chunks_exact(PAIR).map(|pair| (vector(&pair[..12]), vector(&pair[12..]))).collect())
 }
 
-/// The material at the wavelengths of the query, from the last asker or new.
-async fn lobes(app: &App, kept: Arc<Kept>, asked: &Asked) -> Result<Arc<Lobes>, ApiError> {
-    let key = format!("{} {}", kept.hash, asked.key());
-    if let Some(found) = app.lobes.get(&key) {
+/// A material at the wavelengths of a query, and what is asked of it.
+pub(super) struct Ready {
+    lobes: Lobes,
+    out: Out,
+}
+
+/// What the query asks for, from the last asker or new.
+async fn ready(app: &App, kept: Arc<Kept>, uri: &Uri) -> Result<Arc<Ready>, ApiError> {
+    // The text of the query says all: it is read once.
+    let key = format!("{} {}", kept.hash, uri.query().unwrap_or_default());
+    if let Some(found) = app.ready.get(&key) {
         return Ok(found);
     }
+    let asked = Asked::of(uri)?;
+    let out = Out::parse(asked.out().unwrap_or("rgb"))?;
     let view = asked.view(&app.limits)?;
     let made = app.compute_in_time(move || Lobes::new(&kept.prepared, &view)).await??;
-    Ok(app.lobes.keep(key, Arc::new(made)))
+    made.check(out)?;
+    Ok(app.ready.keep(key, Arc::new(Ready { lobes: made, out })))
 }
 
 fn admit(app: &App, lobes: &Lobes, pairs: usize, out: Out) -> Result<(), ApiError> {

@@ -2,10 +2,9 @@
 
 use std::{path::Path, sync::Arc};
 
-use mist_engine::material::lobes::Lobes;
-
 use super::{
     error::ApiError,
+    evaluate::Ready,
     file::too_long,
     flight::Flights,
     materials::{Kept, Materials},
@@ -22,7 +21,7 @@ use crate::{
 };
 
 /// Materials at the wavelengths of a query that are kept ready.
-const LOBES: usize = 64;
+const READY: usize = 64;
 
 /// What handlers share; clones are the same.
 #[derive(Clone)]
@@ -32,7 +31,7 @@ pub struct App {
     pub(super) compute: Compute,
     pub(super) memory: Memory,
     pub(super) materials: Materials,
-    pub(super) lobes: Recent<Lobes>,
+    pub(super) ready: Recent<Ready>,
     pub(super) flights: Flights,
     pub(super) metrics: Metrics,
     pub(super) jobs: Jobs,
@@ -93,7 +92,7 @@ impl App {
             compute: Compute::new(limits.max_computing, limits.max_waiting),
             memory: Memory::new(limits.max_memory),
             materials,
-            lobes: Recent::new(LOBES),
+            ready: Recent::new(READY),
             flights: Flights::new(limits.max_kept),
             metrics: Metrics::default(),
             jobs,
