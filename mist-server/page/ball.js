@@ -12,6 +12,8 @@ import { set, state } from "./state.js";
 import { cross, dot, minus, times, unit } from "./vector.js";
 
 const SIZE = 144;
+/** Of the ball, where half the picture is 1. */
+const RADIUS = 0.95;
 const VIEW = [0, 0, 1];
 const GROUND = [24, 25, 28];
 const COLOURS = ["R", "G", "B"];
@@ -59,9 +61,8 @@ function visible(source) {
   const found = [];
   for (let row = 0; row < SIZE; row += 1) {
     for (let column = 0; column < SIZE; column += 1) {
-      const x = (2 * (column + 0.5)) / SIZE - 1;
-      const y = 1 - (2 * (row + 0.5)) / SIZE;
-      const height = 0.95 ** 2 - x * x - y * y;
+      const [x, y] = middle(row, column);
+      const height = RADIUS ** 2 - x * x - y * y;
       if (height <= 0) continue;
       const normal = unit([x, y, Math.sqrt(height)]);
       const cosine = dot(normal, source);
@@ -70,6 +71,9 @@ function visible(source) {
   }
   return found;
 }
+
+/** The middle of a pixel. */
+const middle = (row, column) => [(2 * (column + 0.5)) / SIZE - 1, 1 - (2 * (row + 0.5)) / SIZE];
 
 function pixel(row, column, normal, source, cosine) {
   // The models let the light come from −x.
@@ -86,7 +90,11 @@ function pixel(row, column, normal, source, cosine) {
 function fill(canvas, scene, filter) {
   const context = canvas.getContext("2d");
   const image = context.createImageData(SIZE, SIZE);
-  for (let at = 0; at < image.data.length; at += 4) image.data.set([...GROUND, 255], at);
+  // What the lamp does not reach is black.
+  for (let at = 0; at < SIZE * SIZE; at += 1) {
+    const isBall = Math.hypot(...middle(Math.floor(at / SIZE), at % SIZE)) < RADIUS;
+    image.data.set([...(isBall ? [0, 0, 0] : GROUND), 255], 4 * at);
+  }
   for (const { row, column, cosine, turn, intensity, q, u } of scene) {
     const angle = filter === null ? 0 : 2 * ((filter * Math.PI) / 180 - turn);
     const light = intensity.map((i, channel) =>
