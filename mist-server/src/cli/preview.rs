@@ -157,7 +157,7 @@ pub(super) fn preview(args: &Args) -> Result<(), Stop> {
     let bytes = bytes.map_err(|error| failed(error.to_string()))?;
     WholeFile::write_bytes(&args.output, &bytes)
         .map_err(|error| failed(format!("{}: {error}", args.output.display())))?;
-    let [width, height] = film.size;
+    let [width, height] = [film.size[0] * (1 + usize::from(args.side_by_side)), film.size[1]];
     print(&format!("{}: {width} × {height} pixels\n", args.output.display()))?;
     let [plain, seen] = [Polarization::All, filter].map(|filter| brightest(&film, filter));
     print(&format!("brightest pixel: {plain:.4} without a filter, {seen:.4} in the picture\n"))
