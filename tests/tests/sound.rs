@@ -1,6 +1,8 @@
 //! What sound runs do with the conformance programs.
 
-use mist_engine::Failure;
+use std::{collections::BTreeMap, sync::Arc};
+
+use mist_engine::{Control, Failure, MemoryFiles, MemorySink, Options};
 use mist_tests::{
     compare::{Tolerance, tables},
     corpus::{self, Case},
@@ -61,10 +63,37 @@ fn the_end_of_a_loop_belongs_to_it_whatever_its_steps_are_rounded_to() {
         ("FOR a FROM -0.1 TO -0.3 BY -0.1", 3),
         ("FOR a FROM 1 TO 2 BY 0.7", 2),
     ] {
-        let files = std::sync::Arc::new(mist_engine::MemoryFiles::default());
-        let job = mist_engine::compile(&text(vary), files, &mist_engine::Options::default());
-        let mut sink = mist_engine::MemorySink::default();
-        job.unwrap().run(&mut sink, &mist_engine::Control::default()).unwrap();
-        assert_eq!(sink.results.lines().count(), rows + 1, "{vary}: {}", sink.results);
+        let results = results(&text(vary), Mode::Sound, &[]);
+        assert_eq!(results.lines().count(), rows + 1, "{vary}: {results}");
     }
+}
+
+#[test]
+fn a_new_slope_distribution_gets_its_parameters_again_in_a_sound_run_only() {
+    let program = "MODEL = Facet_BRDF_Model VARIABLES: \
+         $sdf = Gaussian_Slope_Distribution_Function #sdf.s = 0.2 \
+         incidentangle = 0.3 rotation = 0 incidentpol = (1,0,0,0) differential = 1 \
+         minsamples = 1 END VARY: LIST slopes.lst END \
+         INTEGRALS: f = DIFFERENTIAL CENTER = (0.1,0) END END OUTPUTS: 1 f END FILES: END ";
+    let slopes = "$sdf\nGaussian_Slope_Distribution_Function\n\
+         Exponential_Slope_Distribution_Function\nGaussian_Slope_Distribution_Function\n";
+    let value = |mode, row: usize| {
+        let table = results(program, mode, &[("slopes.lst", slopes)]);
+        let line = table.lines().nth(row).expect("a row for every line of the list").to_owned();
+        line.split_whitespace().last().expect("a value").to_owned()
+    };
+    assert_eq!(value(Mode::Sound, 1), value(Mode::Sound, 3));
+    assert_eq!(value(Mode::Sound, 1), value(Mode::Compat, 1));
+    assert_ne!(value(Mode::Compat, 1), value(Mode::Compat, 3), "a new object has its defaults");
+}
+
+/// The table of a program with its `files`.
+fn results(program: &str, mode: Mode, files: &[(&str, &str)]) -> String {
+    let files: BTreeMap<_, _> =
+        files.iter().map(|(name, text)| ((*name).to_owned(), Arc::from(*text))).collect();
+    let options = Options { mode, ..Options::default() };
+    let job = mist_engine::compile(program, Arc::new(MemoryFiles(files)), &options);
+    let mut sink = MemorySink::default();
+    job.unwrap().run(&mut sink, &Control::default()).unwrap();
+    sink.results
 }
