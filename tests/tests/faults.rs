@@ -16,8 +16,9 @@ fn every_seeded_fault_finds_its_line_once() {
     let mut files = BTreeMap::new();
     for fault in &faults {
         let name = text(fault, "file");
-        let source =
-            files.entry(name.clone()).or_insert_with(|| fs::read_to_string(root.join(name)).unwrap());
+        let source = files
+            .entry(name.clone())
+            .or_insert_with(|| fs::read_to_string(root.join(name)).unwrap());
         let (find, write) = (text(fault, "find"), text(fault, "write"));
         assert_eq!(source.matches(&find).count(), 1, "{}: {find}", text(fault, "what"));
         assert!(write.contains("FAULT"), "{}: no switch", text(fault, "what"));
