@@ -26,6 +26,16 @@ pub enum ReadError {
     /// A header line is missing.
     #[error("the header has no line \"# {0}\"")]
     Missing(&'static str),
+    /// A line has a character that no writer puts there: the file is damaged or no text.
+    #[error("line {line}, column {column}: the control character {found:?}: is this file damaged?")]
+    Control {
+        /// Line, from 1.
+        line: usize,
+        /// Column in characters, from 1.
+        column: usize,
+        /// The character.
+        found: char,
+    },
     /// A header line stands after the first row.
     #[error("line {0}: a header line after the rows have begun")]
     LateHeader(usize),

@@ -64,6 +64,7 @@ impl<'a> TextTable<'a> {
             let start = at;
             at += line.len();
             let line = line.trim_end_matches(['\n', '\r']);
+            no_control(number, line)?;
             match line.strip_prefix('#') {
                 _ if ended && !line.is_empty() => return Err(ReadError::AfterEnd(number)),
                 _ if ended => {}
@@ -164,6 +165,14 @@ impl<'a> TextTable<'a> {
             key: "columns".into(),
             problem: format!("there is no column {name}"),
         })
+    }
+}
+
+/// An error if `line` has another control character than a tab.
+fn no_control(number: usize, line: &str) -> Result<(), ReadError> {
+    match line.chars().enumerate().find(|(_, c)| c.is_control() && *c != '\t') {
+        Some((i, found)) => Err(ReadError::Control { line: number, column: i + 1, found }),
+        None => Ok(()),
     }
 }
 

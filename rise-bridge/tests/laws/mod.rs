@@ -25,7 +25,7 @@ pub fn mtab(text: &str) {
     };
     let rows: Vec<_> = table.rows.iter().map(plain).collect();
     assert_eq!(again.rows, rows, "of\n{text}");
-    // Control characters around a text of the header become blanks, and are gone when it is read.
+    // Tabs in a text of the header become blanks.
     let once = write::mtab(&again, EXACT).expect("it was written a moment ago");
     let twice = write::mtab(&read::mtab(&once).expect("it can be read"), EXACT);
     assert_eq!(twice.as_deref(), Ok(once.as_str()), "of\n{text}");
