@@ -14,6 +14,7 @@ mod error;
 mod eval;
 mod functions;
 mod op;
+mod scalar;
 mod scan;
 mod value;
 
@@ -31,6 +32,8 @@ use op::Step;
 pub struct Expr {
     text: String,
     steps: Vec<Step>,
+    /// What is run instead of the steps as long as every name holds one number.
+    short: Option<Vec<scalar::Code>>,
     names: Vec<String>,
     slots: Vec<u32>,
     files: Vec<String>,
@@ -91,7 +94,10 @@ impl Expr {
     /// Names that the scope does not know, functions with a wrong number of arguments, files
     /// that cannot be read; under the sound rules vectors where a single number is needed.
     pub fn eval(&self, scope: &mut impl Scope, stack: &mut Stack) -> Result<Value, EvalError> {
-        stack.run(self, scope).map(|(first, rest)| Value::new(first, rest))
+        match self.run_short(scope) {
+            Some(x) => Ok(x.into()),
+            None => stack.run(self, scope).map(|(first, rest)| Value::new(first, rest)),
+        }
     }
 
     /// Computes the number that NIST's program takes from the value: its **last** element.
@@ -99,7 +105,16 @@ impl Expr {
     /// # Errors
     /// As for [`Expr::eval`].
     pub fn number(&self, scope: &mut impl Scope, stack: &mut Stack) -> Result<f64, EvalError> {
-        stack.run(self, scope).map(|(first, rest)| rest.last().copied().unwrap_or(first))
+        match self.run_short(scope) {
+            Some(x) => Ok(x),
+            None => {
+                stack.run(self, scope).map(|(first, rest)| rest.last().copied().unwrap_or(first))
+            }
+        }
+    }
+
+    fn run_short(&self, scope: &mut impl Scope) -> Option<f64> {
+        self.short.as_ref().and_then(|code| scalar::run(code, self, scope))
     }
 }
 

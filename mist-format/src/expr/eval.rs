@@ -174,6 +174,7 @@ impl Stack {
     }
 }
 
-fn signed(x: f64, negative: bool) -> f64 {
+/// x or −x.
+pub(super) fn signed(x: f64, negative: bool) -> f64 {
     if negative { -x } else { x }
 }

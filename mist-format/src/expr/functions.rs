@@ -84,12 +84,18 @@ impl Function {
         match (self.arity(), arguments) {
             (1, &[x]) => Some(self.of_one(x)),
             (2, &[a, b]) => Some(self.of_two(a, b)),
-            (3, &[c, a, b]) => Some(if c != 0.0 { a } else { b }),
+            (3, &[c, a, b]) => Some(self.of_three(c, a, b)),
             _ => None,
         }
     }
 
-    fn of_one(self, x: f64) -> f64 {
+    /// The value of `if`, the only function of three arguments.
+    pub(super) fn of_three(self, c: f64, a: f64, b: f64) -> f64 {
+        if c != 0.0 { a } else { b }
+    }
+
+    /// The value of a function of one argument.
+    pub(super) fn of_one(self, x: f64) -> f64 {
         // The same factor as NIST's: pi/180, multiplied or divided.
         const DEGREE: f64 = std::f64::consts::PI / 180.0;
         match self {
@@ -117,7 +123,8 @@ impl Function {
         }
     }
 
-    fn of_two(self, a: f64, b: f64) -> f64 {
+    /// The value of a function of two arguments.
+    pub(super) fn of_two(self, a: f64, b: f64) -> f64 {
         const DEGREE: f64 = std::f64::consts::PI / 180.0;
         let (yes_a, yes_b) = (a != 0.0, b != 0.0);
         match self {

@@ -58,6 +58,8 @@ impl Op {
             Self::Subtract => a - b,
             Self::Multiply => a * b,
             Self::Divide => a / b,
+            // The square rounded once, as exact as a power can be.
+            Self::Power if b == 2.0 => a * a,
             Self::Power => a.powf(b),
         }
     }

@@ -6,7 +6,7 @@
 //! comes then is no operator any more, but the next operand.
 
 use super::op::{Action, Op, Step};
-use super::{Expr, ExprError, ExprErrorKind, Function};
+use super::{Expr, ExprError, ExprErrorKind, Function, scalar};
 use crate::dialect::{Dialect, Quirk};
 use crate::number::{is_blank, number_prefix};
 use crate::span::Span;
@@ -44,7 +44,8 @@ pub(super) fn compile(text: &str, rules: Rules) -> Result<Expr, ExprError> {
     let slots = (0..scan.names.list.len() as u32).collect();
     let (names, files, calls) = (scan.names.list, scan.files.list, scan.calls.list);
     let steps = scan.steps;
-    Ok(Expr { text: text.to_owned(), steps, names, slots, files, calls })
+    let short = scalar::shorten(&steps, &files);
+    Ok(Expr { text: text.to_owned(), steps, short, names, slots, files, calls })
 }
 
 /// An error between two places of the scanned bytes.

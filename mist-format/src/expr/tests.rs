@@ -311,3 +311,52 @@ fn a_scope_may_choose_its_own_slots() {
     let mut scope = Names(vec![vec![1.0], vec![5.0]]);
     assert_eq!(expr.number(&mut scope, &mut Stack::default()).unwrap(), 4.0);
 }
+
+#[test]
+fn short_programs_give_what_the_general_machine_gives() {
+    let names = ["x", "y", "v", "missing"];
+    let operands = [
+        "2.5",
+        "-3",
+        "x",
+        "-y",
+        "(x-1)",
+        "-(y*2)",
+        "sin(x)",
+        "-atan2(x,y)",
+        "v",
+        "if(x>y,x,-y)",
+        "@t.txt(x)",
+        "@t.txt(x,2)",
+        "@t.txt(x,9)",
+        "missing",
+        "(1,x)",
+        "max(v,1)",
+        "sin((x,y))",
+        "min(1)",
+        "@3(x)",
+    ];
+    let mut short = 0;
+    for a in operands {
+        for b in operands {
+            for op in ["+", "-", "*", "/", "^", "<", ">", "=", "&", "|", ",", " ", "  "] {
+                for text in [format!("{a}{op}{b}"), format!("x*({a}{op}{b})^2-min({b},{a})")] {
+                    let Ok(mut expr) = Expr::compile(&text, Dialect::Compat) else { continue };
+                    expr.bind(|name| names.iter().position(|n| *n == name).unwrap_or(3) as u32);
+                    let mut scope = Names(vec![vec![2.9], vec![2.5], vec![5.4, 6.6], vec![]]);
+                    let mut stack = Stack::default();
+                    let quick = expr.eval(&mut scope, &mut stack);
+                    short += u32::from(expr.short.is_some());
+                    expr.short = None;
+                    let general = expr.eval(&mut scope, &mut stack);
+                    let bits =
+                        |value: Value| value.as_slice().iter().map(|x| x.to_bits()).collect();
+                    let bits =
+                        |result: Result<Value, EvalError>| result.map(|v| -> Vec<u64> { bits(v) });
+                    assert_eq!(bits(quick), bits(general), "{text}");
+                }
+            }
+        }
+    }
+    assert!(short > 2000, "{short}");
+}

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use super::digits::{Digits, MOST};
+
 /// Width of a loop value that is written into a variable.
 const LOOP_WIDTH: usize = 16;
 
@@ -11,19 +13,43 @@ pub(crate) const TEXT_DIGITS: usize = 16;
 /// `x` with at most `digits` significant digits as `%.{digits}g` writes it: trailing zeros
 /// dropped, an exponent of two digits or more outside of 1e-4 … 10^digits; `inf`, `nan`, `-nan`.
 pub fn general(x: f64, digits: usize) -> String {
-    let body = if x.is_finite() { general_finite(x.abs(), digits.max(1), false) } else { odd(x) };
-    if x.is_sign_negative() { format!("-{body}") } else { body }
+    let mut text = String::with_capacity(digits.min(MOST) + 7);
+    push_general(&mut text, x, digits);
+    text
+}
+
+/// Appends [`general`] to `text`.
+pub fn push_general(text: &mut String, x: f64, digits: usize) {
+    if x.is_sign_negative() {
+        text.push('-');
+    }
+    if x.is_finite() {
+        push_finite(text, x.abs(), digits.max(1), false);
+    } else {
+        text.push_str(odd(x));
+    }
 }
 
 /// A value as text: one number, or several as `(a,b,c)` without blanks.
 pub fn list(values: &[f64], digits: usize) -> String {
-    match values {
-        [one] => general(*one, digits),
-        many => {
-            let texts: Vec<String> = many.iter().map(|x| general(*x, digits)).collect();
-            format!("({})", texts.join(","))
-        }
+    let mut text = String::new();
+    push_list(&mut text, values, digits);
+    text
+}
+
+/// Appends [`list`] to `text`.
+pub fn push_list(text: &mut String, values: &[f64], digits: usize) {
+    if let [one] = values {
+        return push_general(text, *one, digits);
     }
+    text.push('(');
+    for (at, x) in values.iter().enumerate() {
+        if at > 0 {
+            text.push(',');
+        }
+        push_general(text, *x, digits);
+    }
+    text.push(')');
 }
 
 /// The text that a FOR loop writes into its variable: 16 digits, to the right of 16 columns.
@@ -31,63 +57,76 @@ pub fn loop_text(x: f64) -> String {
     format!("{:>LOOP_WIDTH$}", general(x, TEXT_DIGITS))
 }
 
+/// The number that [`loop_text`] of x is read as; none if x is not finite.
+pub fn reread(x: f64) -> Option<f64> {
+    // 16 digits hold every whole number up to 10^15.
+    if x.trunc() == x && x.abs() < 1e15 {
+        return Some(x);
+    }
+    general(x, TEXT_DIGITS).parse().ok().filter(|x: &f64| x.is_finite())
+}
+
 /// `inf` or `nan` without a sign.
-pub(super) fn odd(x: f64) -> String {
-    if x.is_nan() { "nan".into() } else { "inf".into() }
+pub(super) fn odd(x: f64) -> &'static str {
+    if x.is_nan() { "nan" } else { "inf" }
 }
 
-/// `%.{digits}g` of a finite x ≥ 0; `alternate` (`#`) keeps trailing zeros.
-pub(super) fn general_finite(x: f64, digits: usize, alternate: bool) -> String {
-    let scientific = format!("{:.*e}", digits - 1, x);
-    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    if exponent < -4 || exponent >= digits as i32 {
-        let mut text = strip(mantissa, alternate);
-        write_exponent(&mut text, exponent);
-        text
-    } else {
-        strip(&plain(mantissa, exponent), alternate)
-    }
-}
-
-/// `d.ddd` times 10^exponent without an exponent; the digits stay as they are.
-fn plain(mantissa: &str, exponent: i32) -> String {
-    let mut text = String::with_capacity(mantissa.len() + 6);
-    if exponent < 0 {
-        text.push_str("0.");
-        text.extend(std::iter::repeat_n('0', (-exponent - 1) as usize));
-        text.extend(mantissa.chars().filter(|c| *c != '.'));
-        return text;
-    }
-    let whole = exponent as usize + 1;
-    for (place, digit) in mantissa.chars().filter(|c| *c != '.').enumerate() {
-        if place == whole {
-            text.push('.');
+/// Appends `%.{digits}g` of a finite x ≥ 0; `alternate` (`#`) keeps trailing zeros.
+pub(super) fn push_finite(text: &mut String, x: f64, digits: usize, alternate: bool) {
+    with_digits(x, digits, |all, exponent| {
+        let kept = if alternate { all } else { all.trim_end_matches('0') };
+        if exponent < -4 || exponent >= digits as i32 {
+            push_pointed(text, kept, 1, alternate);
+            push_exponent(text, exponent);
+        } else if exponent < 0 {
+            text.push_str("0.");
+            text.extend(std::iter::repeat_n('0', (-exponent - 1) as usize));
+            text.push_str(kept);
+        } else {
+            push_pointed(text, kept, exponent as usize + 1, alternate);
         }
-        text.push(digit);
+    });
+}
+
+/// Hands the first `count` digits of a finite x ≥ 0 to `write`, and the power of ten of the first.
+pub(super) fn with_digits(x: f64, count: usize, write: impl FnOnce(&str, i32)) {
+    if let Some(digits) = Digits::of(x, count) {
+        return write(digits.as_str(), digits.exponent);
     }
-    text
+    let scientific = format!("{:.*e}", count - 1, x);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    write(&mantissa.replace('.', ""), exponent.parse().unwrap_or(0));
+}
+
+/// Appends `digits` with a point behind the first `whole` of them, filled up with zeros; `point`
+/// writes it even where nothing follows.
+pub(super) fn push_pointed(text: &mut String, digits: &str, whole: usize, point: bool) {
+    let (before, behind) = digits.split_at(whole.min(digits.len()));
+    text.push_str(before);
+    text.extend(std::iter::repeat_n('0', whole - before.len()));
+    if point || !behind.is_empty() {
+        text.push('.');
+    }
+    text.push_str(behind);
 }
 
 /// Appends `e+05` and the like.
-pub(super) fn write_exponent(text: &mut String, exponent: i32) {
-    let sign = if exponent < 0 { '-' } else { '+' };
-    // Writing to a string cannot fail.
-    let _ = write!(text, "e{sign}{:02}", exponent.abs());
-}
-
-fn strip(text: &str, alternate: bool) -> String {
-    match (alternate, text.contains('.')) {
-        (true, true) => text.to_owned(),
-        (true, false) => format!("{text}."),
-        (false, true) => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        (false, false) => text.to_owned(),
+pub(super) fn push_exponent(text: &mut String, exponent: i32) {
+    text.push_str(if exponent < 0 { "e-" } else { "e+" });
+    let size = exponent.unsigned_abs();
+    if size < 100 {
+        text.push(char::from(b'0' + (size / 10) as u8));
+        text.push(char::from(b'0' + (size % 10) as u8));
+    } else {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{size}");
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::whole_number;
 
     #[test]
     fn numbers_are_written_as_streams_write_them() {
@@ -121,5 +160,9 @@ mod tests {
         assert_eq!(list(&[1.0, 0.5], 16), "(1,0.5)");
         assert_eq!(list(&[2.0], 16), "2");
         assert_eq!(loop_text(0.4), "             0.4");
+        for x in [0.1 + 0.2, 1e15, 3.0, -0.0, 1e-320, 0.55, f64::NAN, f64::INFINITY, 1.8e308] {
+            let text = loop_text(x);
+            assert_eq!(reread(x).map(f64::to_bits), whole_number(&text).map(f64::to_bits), "{x}");
+        }
     }
 }

@@ -1,6 +1,9 @@
 //! The number format of FILES: a C printf format for one double.
 
-use super::general::{general_finite, odd, write_exponent};
+use std::fmt::Write as _;
+
+use super::digits::Digits;
+use super::general::{odd, push_exponent, push_finite, push_pointed, with_digits};
 
 /// NIST prints into a buffer of 256 characters; longer texts are cut.
 const LONGEST: usize = 255;
@@ -99,14 +102,23 @@ impl PrintfFormat {
 
     /// The number as text, cut after 255 bytes.
     pub fn format(&self, x: f64) -> String {
-        let mut text = self.before.clone();
+        let mut text = String::new();
+        self.push(&mut text, x);
+        text
+    }
+
+    /// Appends [`PrintfFormat::format`] to `text`.
+    pub fn push(&self, text: &mut String, x: f64) {
+        let start = text.len();
+        text.push_str(&self.before);
         if let Some(conversion) = &self.conversion {
-            text.push_str(&conversion.format(x));
+            conversion.push(text, x);
         }
         text.push_str(&self.after);
-        let cut = (0..=LONGEST.min(text.len())).rev().find(|at| text.is_char_boundary(*at));
-        text.truncate(cut.unwrap_or(0));
-        text
+        if text.len() - start > LONGEST {
+            let cut = (start..=start + LONGEST).rev().find(|at| text.is_char_boundary(*at));
+            text.truncate(cut.unwrap_or(start));
+        }
     }
 }
 
@@ -158,50 +170,62 @@ impl Conversion {
         Ok((conversion, len))
     }
 
-    fn format(&self, x: f64) -> String {
-        let sign = match (x.is_sign_negative(), self.plus, self.blank) {
-            (true, _, _) => "-",
-            (false, true, _) => "+",
-            (false, false, true) => " ",
-            (false, false, false) => "",
-        };
-        let (prefix, body) = self.body(x);
-        let fill = self.width.saturating_sub(sign.len() + prefix.len() + body.chars().count());
-        let text = if self.left {
-            format!("{sign}{prefix}{body}{}", " ".repeat(fill))
-        } else if self.zero && x.is_finite() {
-            format!("{sign}{prefix}{}{body}", "0".repeat(fill))
-        } else {
-            format!("{}{sign}{prefix}{body}", " ".repeat(fill))
-        };
-        if self.letter.is_ascii_uppercase() { text.to_uppercase() } else { text }
+    fn push(&self, text: &mut String, x: f64) {
+        let start = text.len();
+        match (x.is_sign_negative(), self.plus, self.blank) {
+            (true, _, _) => text.push('-'),
+            (false, true, _) => text.push('+'),
+            (false, false, true) => text.push(' '),
+            (false, false, false) => {}
+        }
+        if self.letter.eq_ignore_ascii_case(&b'a') && x.is_finite() {
+            text.push_str("0x");
+        }
+        let body = text.len();
+        self.push_body(text, x);
+        // Every text here is ASCII: bytes are columns.
+        let fill = self.width.saturating_sub(text.len() - start);
+        if fill > 0 {
+            let (place, with) = match (self.left, self.zero && x.is_finite()) {
+                (true, _) => (text.len(), " "),
+                (false, true) => (body, "0"),
+                (false, false) => (start, " "),
+            };
+            text.insert_str(place, &with.repeat(fill));
+        }
+        if self.letter.is_ascii_uppercase() {
+            text[start..].make_ascii_uppercase();
+        }
     }
 
-    /// Prefix (`0x`) and digits of |x|.
-    fn body(&self, x: f64) -> (&'static str, String) {
+    /// Appends |x| without its prefix.
+    fn push_body(&self, text: &mut String, x: f64) {
         let magnitude = x.abs();
         let digits = self.precision.unwrap_or(6);
         match self.letter.to_ascii_lowercase() {
-            _ if !x.is_finite() => ("", odd(x)),
-            b'e' => ("", scientific(magnitude, digits, self.alternate)),
-            b'f' => ("", with_point(format!("{magnitude:.digits$}"), self.alternate)),
-            b'a' => ("0x", hexadecimal(magnitude, self.precision, self.alternate)),
-            _ => ("", general_finite(magnitude, digits.max(1), self.alternate)),
+            _ if !x.is_finite() => text.push_str(odd(x)),
+            b'e' => with_digits(magnitude, digits + 1, |all, exponent| {
+                push_pointed(text, all, 1, self.alternate);
+                push_exponent(text, exponent);
+            }),
+            b'f' => self.push_fixed(text, magnitude, digits),
+            b'a' => text.push_str(&hexadecimal(magnitude, self.precision, self.alternate)),
+            _ => push_finite(text, magnitude, digits.max(1), self.alternate),
         }
     }
-}
 
-/// `%e` of a finite x ≥ 0.
-fn scientific(x: f64, digits: usize, alternate: bool) -> String {
-    let text = format!("{x:.digits$e}");
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let mut text = with_point(mantissa.to_owned(), alternate);
-    write_exponent(&mut text, exponent.parse().unwrap_or(0));
-    text
-}
-
-fn with_point(text: String, alternate: bool) -> String {
-    if alternate && !text.contains('.') { format!("{text}.") } else { text }
+    /// Appends `%f` of a finite x ≥ 0.
+    fn push_fixed(&self, text: &mut String, x: f64, places: usize) {
+        if let Some(digits) = Digits::down_to(x, places) {
+            let whole = digits.exponent as usize + 1;
+            return push_pointed(text, digits.as_str(), whole, self.alternate);
+        }
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{x:.places$}");
+        if self.alternate && places == 0 {
+            text.push('.');
+        }
+    }
 }
 
 /// `%a` of a finite x ≥ 0 without `0x`, as glibc writes it: one digit before the point.
