@@ -1,7 +1,7 @@
 //! Shadowing functions: the fraction of facets that is lit and seen.
 
 use crate::{
-    Direction, Incidence,
+    Direction, Incidence, Mueller,
     slope::SlopeDistribution,
     spec::{Family, Member, ParamError, Spec},
 };
@@ -17,6 +17,15 @@ pub mod unit;
 pub trait Shadow: Send + Sync {
     /// G for the beam `incidence` (with the rotation of the sample) and the exit `direction`.
     fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64;
+
+    /// Multiplies every matrix by the fraction of its direction.
+    ///
+    /// Overridden where a batch can share work; the numbers do not change by it.
+    fn shade(&self, incidence: &Incidence, directions: &[Direction], matrices: &mut [Mueller]) {
+        for (m, direction) in matrices.iter_mut().zip(directions) {
+            *m *= self.fraction(incidence, direction);
+        }
+    }
 
     /// Takes from the slopes of the facets what its own parameters leave open.
     ///
@@ -64,6 +73,9 @@ mod tests {
                 let turned = Incidence::new(b, r + std::f64::consts::PI - phi);
                 let back = shadow.fraction(&turned, &Direction::new(a, -phi));
                 assert!((there - back).abs() < 1e-14, "{}: {there} and {back}", class.name);
+                let mut shaded = [Mueller::diagonal([1.0, 2.0, 0.0, 0.0])];
+                shadow.shade(&Incidence::new(a, r), &[Direction::new(b, phi)], &mut shaded);
+                assert_eq!(shaded[0], Mueller::diagonal([1.0, 2.0, 0.0, 0.0]) * there);
                 assert!((0.0..=1.0).contains(&there), "{}: {there}", class.name);
             }
         }

@@ -1,6 +1,6 @@
 //! Mueller matrices.
 
-use std::ops::{Add, AddAssign, Index, IndexMut, Mul, Sub};
+use std::ops::{Add, AddAssign, Index, IndexMut, Mul, MulAssign, Sub};
 
 use super::Stokes;
 
@@ -74,8 +74,19 @@ impl Mul for Mueller {
 impl Mul<f64> for Mueller {
     type Output = Self;
 
-    fn mul(self, factor: f64) -> Self {
-        Self(self.0.map(|row| row.map(|x| x * factor)))
+    fn mul(mut self, factor: f64) -> Self {
+        self *= factor;
+        self
+    }
+}
+
+impl MulAssign<f64> for Mueller {
+    fn mul_assign(&mut self, factor: f64) {
+        for row in &mut self.0 {
+            for x in row {
+                *x *= factor;
+            }
+        }
     }
 }
 

@@ -155,8 +155,11 @@ fn azimuth_between(incidence: &Incidence, direction: &Direction) -> f64 {
 
 /// Λ = ½[e^{−x²}/(√π x) − erfc x]; beyond x = 26 it is below 10⁻²⁹⁵ and taken as 0.
 pub fn lambda(x: f64) -> f64 {
-    if x > 26.0 {
-        return 0.0;
-    }
-    0.5 * ((-x * x).exp() / (PI.sqrt() * x) - libm::erfc(x))
+    if x > 26.0 { 0.0 } else { lambda_and_erfc(x).0 }
+}
+
+/// Λ and erfc x, which it contains, for x ≤ 26.
+pub(super) fn lambda_and_erfc(x: f64) -> (f64, f64) {
+    let erfc = libm::erfc(x);
+    (0.5 * ((-x * x).exp() / (PI.sqrt() * x) - erfc), erfc)
 }

@@ -15,9 +15,9 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::{Shadow, sancer::lambda};
+use super::{Shadow, sancer::lambda_and_erfc};
 use crate::{
-    Direction, Incidence,
+    Direction, Incidence, Mueller,
     spec::{Class, Laws, Param, ParamError, Spec},
 };
 
@@ -45,15 +45,30 @@ struct Smith {
     w: f64,
 }
 
+/// Beyond this x, erfc x and Λ are below 2·10⁻¹⁷: g is 1 to the last bit.
+const UNSHADOWED: f64 = 6.0;
+
 impl Smith {
+    /// g of a ray.
     fn one_ray(&self, sin: f64, cos: f64) -> f64 {
         let x = cos / sin.abs() * FRAC_1_SQRT_2 / self.w;
-        (1.0 - 0.5 * libm::erfc(x)) / (1.0 + lambda(x))
+        if x > UNSHADOWED {
+            return 1.0;
+        }
+        let (lambda, erfc) = lambda_and_erfc(x);
+        (1.0 - 0.5 * erfc) / (1.0 + lambda)
     }
 }
 
 impl Shadow for Smith {
     fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64 {
         self.one_ray(incidence.sin, incidence.cos) * self.one_ray(direction.sin, direction.cos)
+    }
+
+    fn shade(&self, incidence: &Incidence, directions: &[Direction], matrices: &mut [Mueller]) {
+        let of_source = self.one_ray(incidence.sin, incidence.cos);
+        for (m, direction) in matrices.iter_mut().zip(directions) {
+            *m *= of_source * self.one_ray(direction.sin, direction.cos);
+        }
     }
 }

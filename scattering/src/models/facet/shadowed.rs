@@ -55,6 +55,11 @@ impl Brdf for ShadowedFacet {
         self.facet.mueller(incidence, direction) * self.shadow.fraction(incidence, direction)
     }
 
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        self.facet.mueller_batch(incidence, directions, out);
+        self.shadow.shade(incidence, directions, out);
+    }
+
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
         let fraction = self.shadow.fraction(incidence, direction);
         Some(self.facet.jones(incidence, direction)?.scaled(fraction.sqrt()))
