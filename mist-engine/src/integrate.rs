@@ -36,10 +36,10 @@ pub fn integrate(
     let total = |k| {
         layout.with_chunk(k, |chunk| {
             let mut total = Total::default();
+            let mut all = [Mueller::ZERO; BATCH];
             let batches = chunk.directions.chunks(BATCH).zip(chunk.weights.chunks(BATCH));
             for (directions, weights) in batches {
-                let mut matrices = [Mueller::ZERO; BATCH];
-                let matrices = &mut matrices[..directions.len()];
+                let matrices = &mut all[..directions.len()];
                 model.evaluate(incidence, directions, basis, matrices);
                 for (m, weight) in matrices.iter().zip(weights) {
                     total.add(m, weight, flip);

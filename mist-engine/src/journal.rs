@@ -18,7 +18,7 @@ pub struct Finished {
 }
 
 /// Keeps the steps of a run outside of the engine.
-pub trait Journal {
+pub trait Journal: Send {
     /// What an earlier run of the same job kept of `step`; steps are asked for in order.
     ///
     /// # Errors

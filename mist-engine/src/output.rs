@@ -1,10 +1,10 @@
 //! From the integrals of a step to a line of the results, and where lines go.
 
-use std::io;
+use std::{io, ops::Range, sync::Arc};
 
 use mist_format::{
     expr::{Expr, Stack, Value},
-    number::{general, list},
+    number::{push_general, push_list},
     program::Text,
 };
 
@@ -31,7 +31,7 @@ pub enum Stream {
 }
 
 /// Takes the texts of a run as they are made.
-pub trait Sink {
+pub trait Sink: Send {
     /// Appends `text` to `stream`.
     ///
     /// # Errors
@@ -39,14 +39,13 @@ pub trait Sink {
     /// If the text cannot be kept; the run ends.
     fn write(&mut self, stream: Stream, text: &str) -> io::Result<()>;
 
-    /// Takes a line of the results as it is before it is rounded: what the columns of the loops
-    /// show, and the outputs. Nothing is done with it unless a sink wants it.
+    /// Takes a line of the results in its parts, after its text was written. Nothing is done with
+    /// it unless a sink wants it.
     ///
     /// # Errors
     ///
     /// If it cannot be kept; the run ends.
-    fn row(&mut self, loops: &[String], outputs: &[f64]) -> io::Result<()> {
-        let _ = (loops, outputs);
+    fn row(&mut self, _line: &Line) -> io::Result<()> {
         Ok(())
     }
 
@@ -121,11 +120,24 @@ pub(crate) fn head(job: &Job) -> String {
 }
 
 /// A line of the results.
-pub(crate) struct Line {
+#[derive(Debug, Default)]
+pub struct Line {
     pub(crate) text: String,
+    /// Where the columns of the loops stand in the text.
+    cells: Vec<Range<usize>>,
+    outputs: Vec<f64>,
+}
+
+impl Line {
     /// What the columns of the loops show.
-    pub(crate) loops: Vec<String>,
-    pub(crate) outputs: Vec<f64>,
+    pub fn loops(&self) -> impl Iterator<Item = &str> {
+        self.cells.iter().map(|cell| &self.text[cell.clone()])
+    }
+
+    /// The outputs as they are before they are rounded.
+    pub fn outputs(&self) -> &[f64] {
+        &self.outputs
+    }
 }
 
 /// The values that outputs see: a step's variables and integrals, labels of earlier steps.
@@ -133,27 +145,34 @@ pub(crate) struct Outputs<'j> {
     job: &'j Job,
     pub(crate) scope: Scope,
     stack: Stack,
+    /// The variables that the scope holds.
+    values: Option<Arc<[Option<Value>]>>,
+    /// Whether an integral or an output has the name of a variable, and hides it until the end
+    /// of the line.
+    hides: bool,
 }
 
 impl<'j> Outputs<'j> {
     pub(crate) fn new(job: &'j Job) -> Self {
         let scope = Scope::new(job.names.len(), job.library.clone());
-        Self { job, scope, stack: Stack::default() }
+        let integrals = job.integrals.iter().map(|plan| plan.slot);
+        let errors = job.errors.iter().flat_map(ErrorColumns::slots);
+        let outputs = job.outputs.iter().map(|output| output.slot);
+        let mut results = integrals.chain(errors).chain(outputs);
+        let predefined = [job.required.pi, job.required.deg];
+        let hides = results.any(|slot| job.reads.contains(&slot) || predefined.contains(&slot));
+        Self { job, scope, stack: Stack::default(), values: None, hides }
     }
 
-    /// The line of `step`, whose integrals came out as `integrals`.
-    pub(crate) fn line(&mut self, step: &Step, integrals: &[Evaluated]) -> Result<Line, Fault> {
+    /// Puts the line of `step`, whose integrals came out as `integrals`, into `line`.
+    pub(crate) fn fill(
+        &mut self,
+        line: &mut Line,
+        step: &Step,
+        integrals: &[Evaluated],
+    ) -> Result<(), Fault> {
         let job = self.job;
-        let predefined =
-            [(job.required.pi, 4.0 * 1f64.atan()), (job.required.deg, 4.0 * 1f64.atan() / 180.0)];
-        for (slot, value) in predefined {
-            self.scope.set(slot, value.into());
-        }
-        for (slot, value) in job.reads.iter().zip(&step.values) {
-            if value.is_some() {
-                self.scope.put(*slot, value.clone());
-            }
-        }
+        self.take_values(step);
         for (plan, evaluated) in job.integrals.iter().zip(integrals) {
             self.scope.set(plan.slot, evaluated.value.into());
         }
@@ -161,43 +180,63 @@ impl<'j> Outputs<'j> {
         for column in job.errors.iter().flat_map(ErrorColumns::all) {
             self.scope.set(column.slot, error(column).into());
         }
-        let mut text = String::new();
-        let mut loops = Vec::with_capacity(step.columns.len());
+        let Line { text, cells, outputs } = line;
+        text.clear();
+        cells.clear();
+        outputs.clear();
         for cell in &step.columns {
-            let cell = self.cell(cell)?;
-            text.push_str(&cell);
+            let start = text.len();
+            self.push_cell(text, cell)?;
+            cells.push(start..text.len());
             text.push('\t');
-            loops.push(cell);
         }
-        let mut outputs = Vec::with_capacity(job.outputs.len());
         for (at, output) in job.outputs.iter().enumerate() {
             let value = self.number_at(&output.expr, &output.text)?;
             self.scope.set(output.slot, value.into());
-            text.push_str(&job.format.format(value));
+            job.format.push(text, value);
             outputs.push(value);
             for column in job.errors.iter().flat_map(|errors| errors.after(at)) {
-                text.push_str(&job.format.format(error(column)));
+                job.format.push(text, error(column));
             }
         }
         for column in job.errors.iter().flat_map(ErrorColumns::last) {
-            text.push_str(&job.format.format(error(column)));
+            job.format.push(text, error(column));
         }
         text.push('\n');
-        Ok(Line { text, loops, outputs })
+        Ok(())
     }
 
-    fn cell(&mut self, cell: &Cell) -> Result<String, Fault> {
+    /// The predefined variables and those of the step.
+    fn take_values(&mut self, step: &Step) {
+        let are_there =
+            self.values.as_ref().is_some_and(|values| Arc::ptr_eq(values, &step.values));
+        if are_there && !self.hides {
+            return;
+        }
+        let pi = 4.0 * 1f64.atan();
+        self.scope.set(self.job.required.pi, pi.into());
+        self.scope.set(self.job.required.deg, (pi / 180.0).into());
+        for (slot, value) in self.job.reads.iter().zip(&*step.values) {
+            if value.is_some() {
+                self.scope.put(*slot, value.clone());
+            }
+        }
+        self.values = Some(step.values.clone());
+    }
+
+    fn push_cell(&mut self, text: &mut String, cell: &Cell) -> Result<(), Fault> {
         match cell {
-            Cell::Text(text) => Ok(text.clone()),
-            Cell::Number(x) => Ok(general(*x, LOOP_DIGITS)),
+            Cell::Text(cell) => text.push_str(cell),
+            Cell::Number(x) => push_general(text, *x, LOOP_DIGITS),
             Cell::Expression(expr) => {
                 let value: Value = self
                     .scope
                     .value(expr, &mut self.stack)
                     .map_err(|error| Box::new(error.diagnostic(std::iter::empty())))?;
-                Ok(list(value.as_slice(), LOOP_DIGITS))
+                push_list(text, value.as_slice(), LOOP_DIGITS);
             }
         }
+        Ok(())
     }
 
     /// The number that `expr`, written at `place`, gives now.

@@ -3,7 +3,7 @@
 //! A replay owns the variables, the loops and the model's parameters, and yields one
 //! independent [`Step`] per combination of loop values. It never evaluates the model.
 
-use std::sync::Arc;
+use std::{collections::BTreeSet, sync::Arc};
 
 use mist_format::{
     Diagnostic, Program,
@@ -22,7 +22,7 @@ use crate::{
     sampling::{Sampling, adaptive::Demand},
     scope::Scope,
     step::{Integral, Step},
-    sweep::{Context, Sweep, Written},
+    sweep::{Content, Context, Sweep},
 };
 
 /// The `integrationmode` of adaptive integrals.
@@ -36,9 +36,15 @@ const BUDGET: f64 = 1e7;
 
 /// What an entry holds for the rest of the run after a loop has written it.
 struct Overwritten {
-    text: Arc<str>,
-    number: Option<f64>,
+    content: Content,
+    /// The content compiled, if it is an expression that was needed.
     expr: Option<Expr>,
+}
+
+/// Something computed from variables, and when; it holds as long as they do not change.
+struct Known<T> {
+    at: u64,
+    value: T,
 }
 
 /// What an entry sent to the model last.
@@ -55,6 +61,15 @@ pub struct Replay<'j> {
     stack: Stack,
     sweep: Option<Sweep<'j>>,
     overwritten: Vec<Option<Overwritten>>,
+    /// What the expression of each entry gave last.
+    entries: Vec<Option<Known<Value>>>,
+    incident: Option<Known<Stokes>>,
+    integrals: Option<Known<Arc<Vec<Integral>>>>,
+    /// The incident light with which they were made.
+    incident_before: Option<Stokes>,
+    values: Option<Known<Arc<[Option<Value>]>>>,
+    /// The slots that the integrals read.
+    integrals_read: Vec<u32>,
     last_sent: Vec<Option<Sent>>,
     parameters: Parameters,
     /// The parameters of the step before: NIST's library remembers optical constants by them.
@@ -71,12 +86,21 @@ impl<'j> Replay<'j> {
             scope.set(*slot, value.clone());
         }
         let entries = job.entries.len();
+        let settings = job.integrals.iter().flat_map(|plan| &plan.settings);
+        let integrals_read: BTreeSet<u32> =
+            settings.flat_map(|setting| setting.expr.slots()).copied().collect();
         Self {
             job,
             scope,
             stack: Stack::default(),
             sweep: None,
             overwritten: (0..entries).map(|_| None).collect(),
+            entries: (0..entries).map(|_| None).collect(),
+            incident: None,
+            integrals: None,
+            incident_before: None,
+            values: None,
+            integrals_read: integrals_read.into_iter().collect(),
             last_sent: (0..entries).map(|_| None).collect(),
             parameters: Parameters::new(job.class),
             previous: None,
@@ -131,9 +155,9 @@ impl<'j> Replay<'j> {
         };
         if goes_on && let Some(sweep) = &mut self.sweep {
             for written in sweep.take_written() {
-                let slot = &mut self.overwritten[written.entry];
-                let Written { text, number, .. } = written;
-                *slot = Some(Overwritten { text, number, expr: None });
+                self.entries[written.entry] = None;
+                self.overwritten[written.entry] =
+                    Some(Overwritten { content: written.content, expr: None });
             }
         }
         Ok(goes_on)
@@ -156,7 +180,8 @@ impl<'j> Replay<'j> {
         let entry = &self.job.entries[at];
         let Some(slot) = entry.slot else {
             let text = match &self.overwritten[at] {
-                Some(over) => over.text.to_string(),
+                Some(Overwritten { content: Content::Text(text), .. }) => text.to_string(),
+                Some(Overwritten { content: Content::Number(x), .. }) => Value::from(*x).to_text(),
                 None => self.text(entry).as_str().to_owned(),
             };
             return self.send(at, Sent { text, bits: None }, listing);
@@ -181,19 +206,25 @@ impl<'j> Replay<'j> {
         let text = self.text(entry);
         let expr = match &mut self.overwritten[at] {
             None => entry.expr.as_ref().expect("an entry with a slot has an expression"),
-            Some(over) => {
-                if let Some(x) = over.number {
-                    return Ok(x.into());
+            Some(Overwritten { content: Content::Number(x), .. }) => return Ok((*x).into()),
+            Some(Overwritten { content: Content::Text(written), expr }) => {
+                if expr.is_none() {
+                    *expr = Some(written_expr(self.job, written, text)?);
                 }
-                if over.expr.is_none() {
-                    over.expr = Some(written_expr(self.job, &over.text, text)?);
-                }
-                over.expr.as_ref().expect("compiled just now")
+                expr.as_ref().expect("compiled just now")
             }
         };
-        self.scope
+        if let Some(known) = &self.entries[at]
+            && self.scope.is_same_since(known.at, expr.slots())
+        {
+            return Ok(known.value.clone());
+        }
+        let value = self
+            .scope
             .value(expr, &mut self.stack)
-            .map_err(|error| unknown(self.job, &self.scope, text, &error))
+            .map_err(|error| unknown(self.job, &self.scope, text, &error))?;
+        self.entries[at] = Some(Known { at: self.scope.now(), value: value.clone() });
+        Ok(value)
     }
 
     fn text(&self, entry: &Entry) -> &'j Text {
@@ -260,12 +291,8 @@ impl<'j> Replay<'j> {
             },
             seed: job.options.seed,
         };
-        let mut integrals = Vec::with_capacity(job.integrals.len());
-        if !job.chained {
-            for plan in &job.integrals {
-                integrals.push(self.integral(plan, (sampling.clone(), demand), incident)?);
-            }
-        }
+        let integrals = self.all_integrals((&sampling, demand), incident)?;
+        let values = self.read_values();
         let sweep = self.sweep.as_ref();
         Ok(Step {
             index: self.index,
@@ -277,11 +304,51 @@ impl<'j> Replay<'j> {
             demand,
             incident,
             columns: sweep.map(Sweep::cells).unwrap_or_default(),
-            values: job.reads.iter().map(|slot| self.scope.get(*slot).cloned()).collect(),
+            values,
             listing,
             fraction: sweep.map_or(0.0, Sweep::fraction),
             counts: sweep.map(|s| s.counts().to_vec()).unwrap_or_default(),
         })
+    }
+
+    /// The integrals of this step, unless they wait for each other.
+    fn all_integrals(
+        &mut self,
+        (sampling, demand): (&Sampling, Option<Demand>),
+        incident: Stokes,
+    ) -> Result<Arc<Vec<Integral>>, Fault> {
+        let job = self.job;
+        if job.chained {
+            return Ok(Arc::default());
+        }
+        if let Some(known) = &self.integrals
+            && self.scope.is_same_since(known.at, &self.integrals_read)
+            && known.value.iter().all(|one| one.sampling == *sampling && one.demand == demand)
+            && self.incident_before == Some(incident)
+        {
+            return Ok(known.value.clone());
+        }
+        let mut integrals = Vec::with_capacity(job.integrals.len());
+        for plan in &job.integrals {
+            integrals.push(self.integral(plan, (sampling.clone(), demand), incident)?);
+        }
+        let value = Arc::new(integrals);
+        self.incident_before = Some(incident);
+        self.integrals = Some(Known { at: self.scope.now(), value: value.clone() });
+        Ok(value)
+    }
+
+    /// The variables that outputs read.
+    fn read_values(&mut self) -> Arc<[Option<Value>]> {
+        let reads = &self.job.reads;
+        if let Some(known) = &self.values
+            && self.scope.is_same_since(known.at, reads)
+        {
+            return known.value.clone();
+        }
+        let value: Arc<[_]> = reads.iter().map(|slot| self.scope.get(*slot).cloned()).collect();
+        self.values = Some(Known { at: self.scope.now(), value: value.clone() });
+        value
     }
 
     /// Adds the next integral of a chained program to `step`, with what the integrals before it
@@ -289,7 +356,7 @@ impl<'j> Replay<'j> {
     pub(crate) fn add_integral(&mut self, step: &mut Step) -> Result<(), Fault> {
         let plan = &self.job.integrals[step.integrals.len()];
         let integral = self.integral(plan, (step.sampling.clone(), step.demand), step.incident)?;
-        step.integrals.push(integral);
+        Arc::make_mut(&mut step.integrals).push(integral);
         Ok(())
     }
 
@@ -333,11 +400,18 @@ impl<'j> Replay<'j> {
         let Some((text, expr)) = &job.required.incidentpol else {
             return Err(missing_required(&job.program, "incidentpol"));
         };
+        if let Some(known) = &self.incident
+            && self.scope.is_same_since(known.at, expr.slots())
+        {
+            return Ok(known.value);
+        }
         let value = self
             .scope
             .value(expr, &mut self.stack)
             .map_err(|error| unknown(job, &self.scope, text, &error))?;
-        stokes(&value, text)
+        let value = stokes(&value, text)?;
+        self.incident = Some(Known { at: self.scope.now(), value });
+        Ok(value)
     }
 
     fn integral(

@@ -15,7 +15,7 @@ use crate::{
     journal::{Finished, Forgetful, Journal},
     limits::Meter,
     listing,
-    output::{Outputs, Sink, Stream, head},
+    output::{Line, Outputs, Sink, Stream, head},
     region::Apertures,
     replay::Replay,
     sampling::Layout,
@@ -164,6 +164,8 @@ struct Runner<'a> {
     meter: Meter<'a>,
     shared: Shared<'a>,
     outputs: Outputs<'a>,
+    /// The line that is being written.
+    line: Line,
     fold: Option<Fold<'a>>,
     summary: Summary,
     /// The steps to be evaluated, unless all are.
@@ -187,6 +189,7 @@ impl<'a> Runner<'a> {
             meter: Meter::new(&job.options.limits),
             shared: Shared::new(job, control),
             outputs: Outputs::new(job),
+            line: Line::default(),
             fold: None,
             summary: Summary::default(),
             part: None,
@@ -194,20 +197,36 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// All blocks.
+    /// All blocks; while one is evaluated the next one is replayed.
     fn steps(&mut self) -> Result<(), Failure> {
         let started = Instant::now();
-        let mut replay = Replay::new(self.job);
-        loop {
-            let block_started = Instant::now();
-            let block = self.gather(&mut replay)?;
-            let Some(last) = block.last() else { break };
+        let mut gather = Gather {
+            job: self.job,
+            control: self.control,
+            replay: Replay::new(self.job),
+            part: self.part.clone(),
+            steps: 0,
+        };
+        let mut block = gather.block(self.pace)?;
+        while let Some(last) = block.last() {
             let fraction = self.fraction(last);
-            self.evaluate(block, &mut replay)?;
+            let block_started = Instant::now();
+            let pace = self.pace;
+            let next = if self.job.in_order {
+                self.evaluate(&mut block, Some(&mut gather.replay))?;
+                gather.block(pace)
+            } else {
+                let evaluate = || self.evaluate(&mut block, None);
+                let (done, next) = rayon::join(evaluate, || gather.block(pace));
+                done?;
+                next
+            };
             self.sink.block_done()?;
             self.control.report(fraction);
             self.keep_pace(block_started.elapsed());
+            block = next?;
         }
+        self.summary.steps = gather.steps;
         self.summary.seconds = started.elapsed().as_secs_f64();
         self.summary.evaluations = self.meter.evaluations;
         Ok(())
@@ -232,88 +251,60 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// The steps of the next block; empty behind the last step.
-    fn gather(&mut self, replay: &mut Replay<'_>) -> Result<Vec<Step>, Failure> {
-        let mut block = Vec::new();
-        let mut cost = 0.0;
-        while block.len() < self.pace && cost < BLOCK_EVALUATIONS {
-            let index = self.summary.steps;
-            if self.part.as_ref().is_some_and(|part| index >= part.end) {
-                break;
-            }
-            let Some(step) = replay.next_step().map_err(|fault| at_step(index, fault))? else {
-                break;
-            };
-            self.summary.steps += 1;
-            self.job.within_limit(self.summary.steps)?;
-            if self.part.as_ref().is_some_and(|part| index < part.start) {
-                if self.control.is_cancelled() {
-                    return Err(Failure::Cancelled);
-                }
-                continue;
-            }
-            cost += self.price(&step)?;
-            block.push(step);
-        }
-        Ok(block)
-    }
-
-    /// About how many directions the integrals of `step` have.
-    fn price(&self, step: &Step) -> Result<f64, Failure> {
-        let limit = self.job.options.limits.directions;
-        let mut cost = 0.0;
-        for (integral, plan) in step.integrals.iter().zip(&self.job.integrals) {
-            if integral.demand.is_some() {
-                cost += ADAPTIVE_EVALUATIONS;
-                continue;
-            }
-            let estimate = Layout::estimate(&integral.region, &integral.sampling);
-            if estimate > limit {
-                return Err(Failure::Limit(format!(
-                    "{} would have {estimate:.3e} directions, more than {limit:e}: \
-                     make differential larger or minsamples and polygonsides smaller",
-                    plan.name
-                )));
-            }
-            cost += estimate;
-        }
-        Ok(cost)
-    }
-
-    fn evaluate(&mut self, mut block: Vec<Step>, replay: &mut Replay<'_>) -> Result<(), Failure> {
-        let mut all = self.recalled(&block)?;
+    /// Evaluates a block and writes it. Steps that run in order give their results to `replay`.
+    fn evaluate(
+        &mut self,
+        block: &mut [Step],
+        mut replay: Option<&mut Replay<'_>>,
+    ) -> Result<(), Failure> {
+        let mut all = self.recalled(block)?;
         let known = all.len();
-        let values = if self.job.chained {
-            self.evaluate_chain(&mut block, &all, replay)?
+        if self.job.chained
+            && let Some(replay) = &mut replay
+        {
+            self.evaluate_chain(block, &mut all, replay)?;
         } else {
-            self.shared.evaluate(&block[known..], &mut self.meter)?
-        };
-        let new = block[known..].iter().zip(values);
-        all.extend(new.map(|(step, values)| Finished { values, samples: self.samples(step) }));
+            let new = &block[known..];
+            let values = self.shared.evaluate(new, &mut self.meter)?;
+            let mut values = values.into_iter();
+            for step in new {
+                let values = values.by_ref().take(step.integrals.len()).collect();
+                all.push(Finished { values, samples: self.samples(step) });
+            }
+        }
         self.summary.met.extend(self.shared.take_met());
-        if block.iter().flat_map(|step| &step.integrals).any(is_cut_by_nist) {
+        if block.iter().flat_map(|step| &*step.integrals).any(is_cut_by_nist) {
             self.summary.met.insert(Defect::PolygonHorizon.into());
         }
         if let Some(first) = block.get(known) {
             self.journal.keep(first.index, &all[known..])?;
         }
         for (step, finished) in block.iter().zip(&all) {
-            self.sink.write(Stream::Listing, &step.listing)?;
-            let line = self
-                .outputs
-                .line(step, &finished.values)
-                .map_err(|fault| at_step(step.index, fault))?;
-            self.sink.write(Stream::Results, &line.text)?;
-            self.sink.row(&line.loops, &line.outputs)?;
-            if let Some(fold) = &mut self.fold {
-                fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
-            }
-            self.sink.write(Stream::Samples, &finished.samples)?;
-            self.sink.step_done(step.index)?;
-            if self.job.in_order {
+            self.write(step, finished)?;
+            if let Some(replay) = &mut replay {
                 self.outputs.feed_back(&mut replay.scope);
             }
         }
+        Ok(())
+    }
+
+    /// Writes what `step` has to say: its part of the listing, its line, its samples.
+    fn write(&mut self, step: &Step, finished: &Finished) -> Result<(), Failure> {
+        if !step.listing.is_empty() {
+            self.sink.write(Stream::Listing, &step.listing)?;
+        }
+        self.outputs
+            .fill(&mut self.line, step, &finished.values)
+            .map_err(|fault| at_step(step.index, fault))?;
+        self.sink.write(Stream::Results, &self.line.text)?;
+        self.sink.row(&self.line)?;
+        if let Some(fold) = &mut self.fold {
+            fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
+        }
+        if !finished.samples.is_empty() {
+            self.sink.write(Stream::Samples, &finished.samples)?;
+        }
+        self.sink.step_done(step.index)?;
         Ok(())
     }
 
@@ -336,25 +327,24 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Integrals whose apertures read integrals before them, one after the other; those of the
-    /// first steps are `known`.
+    /// Integrals whose apertures read integrals before them, one after the other; the first steps
+    /// are in `all`, and so are the others in the end.
     fn evaluate_chain(
         &mut self,
         block: &mut [Step],
-        known: &[Finished],
+        all: &mut Vec<Finished>,
         replay: &mut Replay<'_>,
-    ) -> Result<Vec<Vec<Evaluated>>, Failure> {
-        let mut all = Vec::with_capacity(block.len());
+    ) -> Result<(), Failure> {
         for (at, step) in block.iter_mut().enumerate() {
             let mut values = Vec::new();
             for (number, plan) in self.job.integrals.iter().enumerate() {
                 replay.add_integral(step).map_err(|fault| at_step(step.index, fault))?;
-                let last = match known.get(at) {
+                let last = match all.get(at) {
                     Some(finished) => finished.values.get(number),
                     None => {
-                        self.price(step)?;
+                        price(self.job, step)?;
                         let only = std::slice::from_ref(&*step);
-                        values = self.shared.evaluate(only, &mut self.meter)?.remove(0);
+                        values = self.shared.evaluate(only, &mut self.meter)?;
                         values.last()
                     }
                 };
@@ -365,12 +355,72 @@ impl<'a> Runner<'a> {
                     replay.scope.set(column.slot, last.error.into());
                 }
             }
-            if at >= known.len() {
-                all.push(values);
+            if at == all.len() {
+                all.push(Finished { values, samples: self.samples(step) });
             }
         }
-        Ok(all)
+        Ok(())
     }
+}
+
+/// Replays steps until there are enough of them.
+struct Gather<'a> {
+    job: &'a Job,
+    control: &'a Control,
+    replay: Replay<'a>,
+    /// The steps to be evaluated, unless all are.
+    part: Option<Range<u64>>,
+    /// Steps replayed so far.
+    steps: u64,
+}
+
+impl Gather<'_> {
+    /// The steps of the next block, at most `most`; empty behind the last step.
+    fn block(&mut self, most: usize) -> Result<Vec<Step>, Failure> {
+        let mut block = Vec::new();
+        let mut cost = 0.0;
+        while block.len() < most && cost < BLOCK_EVALUATIONS {
+            let index = self.steps;
+            if self.part.as_ref().is_some_and(|part| index >= part.end) {
+                break;
+            }
+            let step = self.replay.next_step().map_err(|fault| at_step(index, fault))?;
+            let Some(step) = step else { break };
+            self.steps += 1;
+            self.job.within_limit(self.steps)?;
+            if self.part.as_ref().is_some_and(|part| index < part.start) {
+                if self.control.is_cancelled() {
+                    return Err(Failure::Cancelled);
+                }
+                continue;
+            }
+            cost += price(self.job, &step)?;
+            block.push(step);
+        }
+        Ok(block)
+    }
+}
+
+/// About how many directions the integrals of `step` have.
+fn price(job: &Job, step: &Step) -> Result<f64, Failure> {
+    let limit = job.options.limits.directions;
+    let mut cost = 0.0;
+    for (integral, plan) in step.integrals.iter().zip(&job.integrals) {
+        if integral.demand.is_some() {
+            cost += ADAPTIVE_EVALUATIONS;
+            continue;
+        }
+        let estimate = Layout::estimate(&integral.region, &integral.sampling);
+        if estimate > limit {
+            return Err(Failure::Limit(format!(
+                "{} would have {estimate:.3e} directions, more than {limit:e}: \
+                 make differential larger or minsamples and polygonsides smaller",
+                plan.name
+            )));
+        }
+        cost += estimate;
+    }
+    Ok(cost)
 }
 
 /// Whether the aperture is the true one of a shape for which NIST's program takes a polygon.

@@ -15,6 +15,7 @@ use crate::region::{Apertures, Frame, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
 
 pub mod adaptive;
+mod arc;
 mod key;
 mod pattern;
 mod projection;
@@ -278,15 +279,18 @@ impl Plan {
         if v.z <= 0.0 {
             return None;
         }
-        let direction = seen(v);
         let is_inside = match &self.inside {
             Inside::Cone => true,
-            Inside::Polygon(polygon) => polygon.contains(projected(v, &direction)),
+            Inside::Polygon(polygon) => polygon.contains(projected(v)),
             Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
             Inside::One(_) => false,
         };
+        if !is_inside {
+            return None;
+        }
+        let direction = seen(v);
         let has_cosine = self.apertures == Apertures::Nist || direction.theta < FRAC_PI_2;
-        (is_inside && has_cosine).then_some((direction, v, weight * v.z))
+        has_cosine.then_some((direction, v, weight * v.z))
     }
 }
 
@@ -302,13 +306,23 @@ impl Chunk {
     }
 }
 
-/// The direction of the unit vector `v`.
+/// The direction of the unit vector `v` above the horizon.
 fn seen(v: DVec3) -> Direction {
-    let (theta, phi) = (v.z.acos(), v.y.atan2(v.x));
+    let sin = ((1.0 - v.z) * (1.0 + v.z)).max(0.0).sqrt();
     let across = (v.x * v.x + v.y * v.y).sqrt();
+    if v.z < HORIZON || across < AXIS {
+        return by_angles(v, sin, across);
+    }
+    let (theta, phi) = (arc::angle(sin, v.z), arc::angle(v.y, v.x));
+    Direction { theta, phi, sin, cos: v.z, sin_phi: v.y / across, cos_phi: v.x / across }
+}
+
+/// [`seen`] next to the horizon and to the normal, where rounding decides.
+#[cold]
+fn by_angles(v: DVec3, sin: f64, across: f64) -> Direction {
+    let (theta, phi) = (v.z.acos(), v.y.atan2(v.x));
     let (sin_phi, cos_phi) =
         if across > 0.0 { (v.y / across, v.x / across) } else { phi.sin_cos() };
-    let sin = ((1.0 - v.z) * (1.0 + v.z)).max(0.0).sqrt();
     Direction { theta, phi, sin, cos: v.z, sin_phi, cos_phi }
 }
 
@@ -316,12 +330,15 @@ fn seen(v: DVec3) -> Direction {
 ///
 /// Next to an axis they are taken of the angles, as NIST's program does: a vertex may lie there,
 /// and then the rounding of cos π/2 decides.
-fn projected(v: DVec3, direction: &Direction) -> DVec2 {
+fn projected(v: DVec3) -> DVec2 {
     if v.x.abs().min(v.y.abs()) > AXIS {
         return v.truncate();
     }
-    crate::region::unit((direction.theta, direction.phi)).truncate()
+    crate::region::unit((v.z.acos(), v.y.atan2(v.x))).truncate()
 }
+
+/// Closer to the horizon than this, rounding decides whether a direction lies above it.
+const HORIZON: f64 = 1e-9;
 
 /// Closer to an axis than this, rounding decides.
 const AXIS: f64 = 1e-12;

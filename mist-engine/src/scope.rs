@@ -45,27 +45,48 @@ impl Names {
 }
 
 /// The values in the slots, and the tables that expressions read.
+///
+/// It notes when a slot came to hold another value than before, so that what depends on it is
+/// computed again only then.
 #[derive(Clone)]
 pub(crate) struct Scope {
     values: Vec<Option<Value>>,
+    /// For each slot the change, counted from 1, that gave it its value.
+    changed: Vec<u64>,
+    changes: u64,
     library: Library,
 }
 
 impl Scope {
     pub(crate) fn new(slots: usize, library: Library) -> Self {
-        Self { values: vec![None; slots], library }
+        Self { values: vec![None; slots], changed: vec![0; slots], changes: 0, library }
     }
 
     pub(crate) fn set(&mut self, slot: u32, value: Value) {
-        self.values[slot as usize] = Some(value);
+        self.put(slot, Some(value));
     }
 
     pub(crate) fn put(&mut self, slot: u32, value: Option<Value>) {
-        self.values[slot as usize] = value;
+        let slot = slot as usize;
+        if !same(self.values[slot].as_ref(), value.as_ref()) {
+            self.changes += 1;
+            self.changed[slot] = self.changes;
+            self.values[slot] = value;
+        }
     }
 
     pub(crate) fn get(&self, slot: u32) -> Option<&Value> {
         self.values.get(slot as usize)?.as_ref()
+    }
+
+    /// The time as the scope counts it: how many changes there were.
+    pub(crate) fn now(&self) -> u64 {
+        self.changes
+    }
+
+    /// Whether none of `slots` has changed since `then`.
+    pub(crate) fn is_same_since(&self, then: u64, slots: &[u32]) -> bool {
+        slots.iter().all(|slot| self.changed.get(*slot as usize).is_none_or(|at| *at <= then))
     }
 
     pub(crate) fn value(&mut self, expr: &Expr, stack: &mut Stack) -> Result<Value, EvalError> {
@@ -90,5 +111,43 @@ impl expr::Scope for Scope {
 
     fn table(&mut self, file: &str, x: f64, column: i64) -> Result<f64, TableError> {
         self.library.columns(file)?.look_up(x, column)
+    }
+}
+
+/// Whether two values have the same bits.
+fn same(a: Option<&Value>, b: Option<&Value>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => {
+            let (a, b) = (a.as_slice(), b.as_slice());
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+        }
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use mist_format::Dialect;
+
+    use super::*;
+    use crate::MemoryFiles;
+
+    #[test]
+    fn only_another_value_is_a_change() {
+        let library = Library::new(Arc::new(MemoryFiles::default()), Dialect::Sound);
+        let mut scope = Scope::new(2, library);
+        scope.set(0, 0.0.into());
+        scope.set(1, f64::NAN.into());
+        let then = scope.now();
+        scope.set(0, 0.0.into());
+        scope.set(1, f64::NAN.into());
+        assert!(scope.is_same_since(then, &[0, 1, u32::MAX]));
+        scope.set(0, (-0.0).into());
+        assert!(!scope.is_same_since(then, &[1, 0]) && scope.is_same_since(then, &[1]));
+        scope.put(1, None);
+        assert!(!scope.is_same_since(then, &[1]));
     }
 }

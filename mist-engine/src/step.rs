@@ -1,6 +1,8 @@
 //! One step of a run: everything that its evaluation needs, and nothing of the steps before.
 
-use mist_format::expr::Value;
+use std::sync::Arc;
+
+use mist_format::expr::{Expr, Value};
 use scattering::Stokes;
 
 use crate::{
@@ -19,8 +21,8 @@ pub struct Step {
     pub theta_i: f64,
     /// Sample rotation, radians.
     pub rotation: f64,
-    /// One per integral, in the order of the program.
-    pub integrals: Vec<Integral>,
+    /// One per integral, in the order of the program; shared with the step before if equal.
+    pub integrals: Arc<Vec<Integral>>,
     /// How its integrals are sampled.
     pub(crate) sampling: Sampling,
     /// How accurate its integrals must be, if they are adaptive.
@@ -29,8 +31,9 @@ pub struct Step {
     pub(crate) incident: Stokes,
     /// What the columns of the loops show.
     pub(crate) columns: Vec<Cell>,
-    /// Values of the variables that outputs read, parallel to the job's `reads`.
-    pub(crate) values: Vec<Option<Value>>,
+    /// Values of the variables that outputs read, parallel to the job's `reads`; shared with the
+    /// step before if equal.
+    pub(crate) values: Arc<[Option<Value>]>,
     /// Lines for the listing.
     pub(crate) listing: String,
     /// How often each loop was advanced since its reset.
@@ -40,6 +43,7 @@ pub struct Step {
 }
 
 /// One integral of a step.
+#[derive(Clone, Debug)]
 pub struct Integral {
     /// The solid angle.
     pub region: Region,
@@ -81,9 +85,9 @@ impl Evaluated {
 #[derive(Clone, Debug)]
 pub(crate) enum Cell {
     /// Text as it is.
-    Text(String),
+    Text(Arc<str>),
     /// A number, printed with six digits.
     Number(f64),
     /// An expression of a LIST file, evaluated with the new variables.
-    Expression(Box<mist_format::expr::Expr>),
+    Expression(Arc<Expr>),
 }

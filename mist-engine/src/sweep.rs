@@ -46,10 +46,17 @@ impl LoopPlan {
 pub(crate) struct Written {
     /// The entry.
     pub(crate) entry: usize,
-    /// Its new text.
-    pub(crate) text: Arc<str>,
-    /// The number that the text is, if it is one.
-    pub(crate) number: Option<f64>,
+    /// What it says from now on.
+    pub(crate) content: Content,
+}
+
+/// The new content of an entry of VARIABLES.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Content {
+    /// A text that is a number, where the text itself is not wanted.
+    Number(f64),
+    /// An expression, or a text for the model.
+    Text(Arc<str>),
 }
 
 /// What loops need to evaluate their expressions.
@@ -133,13 +140,17 @@ impl<'j> Sweep<'j> {
 
     /// The loop columns of the current step: the last declared loop first.
     pub(crate) fn cells(&self) -> Vec<Cell> {
-        let both = self.plans.iter().zip(&self.states).rev();
-        both.flat_map(|(plan, state)| match (plan, state) {
-            (LoopPlan::For(plan), LoopState::For(state)) => vec![state.cell(plan)],
-            (LoopPlan::List(plan), LoopState::List(state)) => state.cells(plan),
-            _ => Vec::new(),
-        })
-        .collect()
+        let mut cells = Vec::with_capacity(self.plans.len());
+        for (plan, state) in self.plans.iter().zip(&self.states).rev() {
+            match (plan, state) {
+                (LoopPlan::For(plan), LoopState::For(state)) => cells.push(state.cell(plan)),
+                (LoopPlan::List(_), LoopState::List(state)) => {
+                    cells.extend_from_slice(state.cells())
+                }
+                _ => {}
+            }
+        }
+        cells
     }
 
     /// How far the first declared loop is, from 0 to 1.

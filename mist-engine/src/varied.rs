@@ -144,8 +144,9 @@ impl Sink for Ran {
         Ok(())
     }
 
-    fn row(&mut self, loops: &[String], outputs: &[f64]) -> io::Result<()> {
-        self.rows.push(Row { loops: loops.to_vec(), outputs: outputs.to_vec() });
+    fn row(&mut self, line: &Line) -> io::Result<()> {
+        let loops = line.loops().map(str::to_owned).collect();
+        self.rows.push(Row { loops, outputs: line.outputs().to_vec() });
         Ok(())
     }
 }

@@ -110,8 +110,49 @@ struct Work {
     cell: Arc<ModelCell>,
     incidence: Incidence,
     place: Place,
+    /// Where its result goes.
+    found: usize,
     /// The step that wants it first, and which of its integrals.
     wanted_by: (usize, usize),
+}
+
+/// What a block of steps wants.
+#[derive(Default)]
+struct Todo {
+    /// For every integral of every step, in order, the place of its result.
+    places: Vec<usize>,
+    found: Vec<Found>,
+    known: Map<Key, usize>,
+    /// The key that was looked for last, and its place.
+    last: Option<(Key, usize)>,
+    work: Vec<Work>,
+    /// The integrals that were looked at last, and where they collect light.
+    integrals: Option<Arc<Vec<Integral>>>,
+    apertures: Vec<(Aperture, Place)>,
+}
+
+impl Todo {
+    /// Where `integrals` collect light.
+    fn look_at(
+        &mut self,
+        integrals: &Arc<Vec<Integral>>,
+        layouts: &Map<LayoutKey, Numbered>,
+    ) {
+        if self.integrals.as_ref().is_some_and(|before| Arc::ptr_eq(before, integrals)) {
+            return;
+        }
+        self.integrals = Some(integrals.clone());
+        self.apertures.clear();
+        self.apertures.extend(integrals.iter().map(|integral| match &integral.region {
+            Region::Differential { center: (theta, phi) } => {
+                (Aperture::Point(theta.to_bits(), phi.to_bits()), Place::Point(*theta, *phi))
+            }
+            _ => {
+                let (id, place) = &layouts[&integral.layout_key()];
+                (Aperture::Area(*id), place.clone())
+            }
+        }));
+    }
 }
 
 /// Everything that steps share.
@@ -138,25 +179,25 @@ impl<'a> Shared<'a> {
         }
     }
 
-    /// The values of all integrals of all steps.
+    /// The values of all integrals of all steps, one step after the other.
+    ///
+    /// All steps of a block have the same number of integrals.
     pub(crate) fn evaluate(
         &mut self,
         block: &[Step],
         meter: &mut Meter<'_>,
-    ) -> Result<Vec<Vec<Evaluated>>, Failure> {
+    ) -> Result<Vec<Evaluated>, Failure> {
         let layouts = self.lay_out(block)?;
-        let mut known: Map<Key, Found> = Map::default();
-        let mut work: Vec<Work> = Vec::new();
-        let mut keys = Vec::with_capacity(block.len());
+        let mut todo = Todo::default();
         for (at, step) in block.iter().enumerate() {
-            keys.push(self.keys(at, step, &layouts, &mut known, &mut work));
+            self.find(at, step, &layouts, &mut todo);
         }
-        meter.add(work.iter().map(Work::evaluations).sum()).map_err(Failure::Limit)?;
-        let spent = self.do_all(block, work, &mut known)?;
+        meter.add(todo.work.iter().map(Work::evaluations).sum()).map_err(Failure::Limit)?;
+        let spent = self.do_all(block, &mut todo)?;
         meter.add(spent).map_err(Failure::Limit)?;
-        let value = |(integral, key): (&Integral, &Key)| known[key].evaluated(integral);
-        let both = block.iter().zip(&keys);
-        Ok(both.map(|(step, keys)| step.integrals.iter().zip(keys).map(value).collect()).collect())
+        let integrals = block.iter().flat_map(|step| &*step.integrals);
+        let value = |(integral, place): (&Integral, &usize)| todo.found[*place].evaluated(integral);
+        Ok(integrals.zip(&todo.places).map(value).collect())
     }
 
     /// The layout of every area in the block, made in parallel where it is new.
@@ -165,6 +206,9 @@ impl<'a> Shared<'a> {
         let mut wanted: Vec<(LayoutKey, (usize, usize))> = Vec::new();
         let mut seen = BTreeSet::new();
         for (at, step) in block.iter().enumerate() {
+            if at > 0 && Arc::ptr_eq(&step.integrals, &block[at - 1].integrals) {
+                continue;
+            }
             for (number, integral) in step.integrals.iter().enumerate() {
                 if matches!(integral.region, Region::Differential { .. }) {
                     continue;
@@ -197,69 +241,63 @@ impl<'a> Shared<'a> {
         Ok(layouts)
     }
 
-    /// The keys of the integrals of one step; what nobody has computed yet becomes work.
-    fn keys(
+    /// Where the integrals of one step will be; what nobody has computed yet becomes work.
+    fn find(
         &mut self,
         at: usize,
         step: &Step,
         layouts: &Map<LayoutKey, Numbered>,
-        known: &mut Map<Key, Found>,
-        work: &mut Vec<Work>,
-    ) -> Vec<Key> {
+        todo: &mut Todo,
+    ) {
         if step.integrals.is_empty() {
-            return Vec::new();
+            return;
         }
-        let cell = self.models.cell(&step.parameters);
-        let mut keys = Vec::with_capacity(step.integrals.len());
-        for (number, integral) in step.integrals.iter().enumerate() {
-            let (aperture, place) = match &integral.region {
-                Region::Differential { center: (theta, phi) } => {
-                    (Aperture::Point(theta.to_bits(), phi.to_bits()), Place::Point(*theta, *phi))
-                }
-                _ => {
-                    let (id, place) = &layouts[&integral.layout_key()];
-                    (Aperture::Area(*id), place.clone())
-                }
-            };
+        let model = step.parameters.fingerprint();
+        todo.look_at(&step.integrals, layouts);
+        for number in 0..step.integrals.len() {
+            let (aperture, place) = &todo.apertures[number];
             let key = Key {
-                model: step.parameters.fingerprint(),
+                model,
                 theta_i: step.theta_i.to_bits(),
                 rotation: step.rotation.to_bits(),
-                aperture,
+                aperture: *aperture,
             };
-            keys.push(key);
-            if known.contains_key(&key) {
+            if let Some((last, place)) = todo.last
+                && last == key
+            {
+                todo.places.push(place);
                 continue;
             }
-            if let Some(found) = self.integrals.get(&key) {
-                known.insert(key, found.clone());
-                continue;
+            let next = todo.found.len();
+            let here = *todo.known.entry(key).or_insert(next);
+            if here == next {
+                let found = self.integrals.get(&key).cloned();
+                if found.is_none() {
+                    let cell = self.models.cell(&step.parameters);
+                    let incidence = Incidence::new(step.theta_i, step.rotation);
+                    let (place, wanted_by) = (place.clone(), (at, number));
+                    todo.work.push(Work { key, cell, incidence, place, found: here, wanted_by });
+                }
+                todo.found.push(found.unwrap_or(Found { matrix: Mueller::ZERO, error: None }));
             }
-            known.insert(key, Found { matrix: Mueller::ZERO, error: None });
-            let incidence = Incidence::new(step.theta_i, step.rotation);
-            work.push(Work { key, cell: cell.clone(), incidence, place, wanted_by: (at, number) });
+            todo.last = Some((key, here));
+            todo.places.push(here);
         }
-        keys
     }
 
-    /// Does the work and puts what came out into `known`; says how many evaluations of the model
-    /// it cost beyond those that were known before.
-    fn do_all(
-        &mut self,
-        block: &[Step],
-        work: Vec<Work>,
-        known: &mut Map<Key, Found>,
-    ) -> Result<f64, Failure> {
+    /// Does the work and keeps what came out; says how many evaluations of the model it cost
+    /// beyond those that were known before.
+    fn do_all(&mut self, block: &[Step], todo: &mut Todo) -> Result<f64, Failure> {
         let stop = || self.control.is_cancelled();
         let basis = self.job.basis;
         let done: Vec<Result<(Found, u64), Undone>> =
-            work.par_iter().map(|piece| piece.compute(basis, &stop)).collect();
+            todo.work.par_iter().map(|piece| piece.compute(basis, &stop)).collect();
         let mut spent = 0.0;
-        for (piece, result) in work.iter().zip(done) {
+        for (piece, result) in todo.work.iter().zip(done) {
             let fault = match result {
                 Ok((found, evaluations)) => {
                     spent += evaluations as f64;
-                    known.insert(piece.key, found.clone());
+                    todo.found[piece.found] = found.clone();
                     self.integrals.insert(piece.key, found, 1);
                     None
                 }
@@ -315,7 +353,7 @@ impl<'a> Shared<'a> {
         let Ok(built) = cell.get() else { return text };
         let incidence = Incidence::new(step.theta_i, step.rotation);
         let (model, basis) = (&built.model, self.job.basis);
-        for integral in &step.integrals {
+        for integral in step.integrals.iter() {
             let light = (&integral.pol, &integral.inpol);
             let mut write = |sample: Sample| {
                 let [x, y, z] = sample.xyz();

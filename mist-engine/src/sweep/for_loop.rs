@@ -10,7 +10,7 @@ use mist_format::{
     program::{ForLoop, Text},
 };
 
-use super::{Context, Written};
+use super::{Content, Context, Written};
 use crate::{
     fault::{Fault, placed},
     quirk::Quirk,
@@ -96,7 +96,7 @@ impl ForState {
 
     pub(crate) fn cell(&self, plan: &ForPlan) -> Cell {
         if plan.is_text {
-            Cell::Text(number::loop_text(self.value))
+            Cell::Text(number::loop_text(self.value).into())
         } else {
             Cell::Number(self.value)
         }
@@ -107,9 +107,10 @@ impl ForState {
     }
 
     fn write(&self, plan: &ForPlan, written: &mut Vec<Written>) {
-        let text = number::loop_text(self.value);
-        let number = number::whole_number(&text);
-        written.push(Written { entry: plan.entry, text: text.into(), number });
+        let number = if plan.is_text { None } else { number::reread(self.value) };
+        let content = number
+            .map_or_else(|| Content::Text(number::loop_text(self.value).into()), Content::Number);
+        written.push(Written { entry: plan.entry, content });
     }
 }
 

@@ -14,7 +14,7 @@ use mist_format::{
     table::ListTable,
 };
 
-use super::{Context, Written};
+use super::{Content, Context, Written};
 use crate::{fault::Fault, quirk::dialect, step::Cell};
 
 /// A LIST loop as compiled.
@@ -68,8 +68,8 @@ impl ListState {
         Ok(true)
     }
 
-    pub(crate) fn cells(&self, _: &ListPlan) -> Vec<Cell> {
-        self.cells.clone()
+    pub(crate) fn cells(&self) -> &[Cell] {
+        &self.cells
     }
 
     pub(crate) fn fraction(&self, plan: &ListPlan) -> f64 {
@@ -86,12 +86,14 @@ impl ListState {
         for (at, column) in plan.columns.iter().enumerate() {
             let raw = plan.file.cell(self.row, at);
             let (text, cell) = if column.is_text {
-                (raw.to_owned(), Cell::Text(raw.to_owned()))
+                (Arc::from(raw), Cell::Text(raw.into()))
             } else {
-                evaluate(plan, raw, self.row, context)?
+                let (text, cell) = evaluate(plan, raw, self.row, context)?;
+                (text.into(), cell)
             };
-            let number = whole_number(&text);
-            written.push(Written { entry: column.entry, text: text.into(), number });
+            let number = whole_number(&text).filter(|_| !column.is_text);
+            let content = number.map_or(Content::Text(text), Content::Number);
+            written.push(Written { entry: column.entry, content });
             self.cells.push(cell);
         }
         Ok(())
@@ -121,5 +123,5 @@ fn evaluate(
         let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
         wrong(error.diagnostic(known))
     })?;
-    Ok((value.to_text(), Cell::Expression(Box::new(expr))))
+    Ok((value.to_text(), Cell::Expression(Arc::new(expr))))
 }
