@@ -64,6 +64,6 @@ pub use files::{FileError, Files, Library, MemoryFiles};
 pub use job::{Job, Options};
 pub use journal::{Finished, Journal};
 pub use limits::{Control, Limits};
-pub use output::{MemorySink, Sink, Stream};
+pub use output::{Line, MemorySink, Sink, Stream};
 pub use run::Summary;
 pub use step::{Evaluated, Step};

@@ -7,7 +7,9 @@ use std::{io, sync::Arc};
 
 use mist_format::{Diagnostic, program::VariableKind, suggestion::did_you_mean};
 
-use crate::{Control, Failure, Files, Job, Options, Sink, Stream, colour::ColourTable, compile};
+use crate::{
+    Control, Failure, Files, Job, Line, Options, Sink, Stream, colour::ColourTable, compile,
+};
 
 /// A program and the variables that change.
 pub struct Varied {

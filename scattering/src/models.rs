@@ -7,7 +7,7 @@ use crate::{
     Basis, Direction, Geometry, Incidence, Jones, Mode, Mueller, Node, ParamError, Side,
     geometry::beams,
     polarization::change_basis,
-    spec::{self, Family, Member, Param, Spec},
+    spec::{self, Family, Member, Param, Spec, range},
 };
 
 pub mod coating;
@@ -169,6 +169,9 @@ impl Member for dyn Brdf {
 ///
 /// What its parameters get wrong.
 pub fn build(node: &Node) -> Result<Model, ParamError> {
+    if node.mode == Mode::Sound {
+        range::check(node, node.number("lambda"))?;
+    }
     Ok(Model::new(spec::build::<dyn Brdf>(node)?, node.mode))
 }
 

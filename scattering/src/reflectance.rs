@@ -1,6 +1,9 @@
 //! Spectral reflectances of diffuse bodies.
 
-use crate::spec::{Family, Member, Spec};
+use crate::{
+    Mode, Node, ParamError,
+    spec::{Family, Member, Spec},
+};
 
 pub mod equation;
 pub mod kubelka_munk;
@@ -10,6 +13,20 @@ pub mod table;
 pub trait Reflectance: Send + Sync {
     /// R at the vacuum wavelength `lambda` µm.
     fn at(&self, lambda: f64) -> f64;
+}
+
+/// The reflectance `name` of `node` at the vacuum wavelength `lambda` µm.
+///
+/// # Errors
+///
+/// What its own parameters get wrong; in a sound build a value that is not finite.
+pub fn read(node: &Node, name: &str, lambda: f64) -> Result<f64, ParamError> {
+    let reflectance = node.member::<dyn Reflectance>(name)?.at(lambda);
+    if node.mode == Mode::Sound && !reflectance.is_finite() {
+        let problem = format!("{reflectance} at {lambda} um is not a reflectance");
+        return Err(ParamError::new(name, problem));
+    }
+    Ok(reflectance)
 }
 
 /// All of them, in the order they are listed to users.

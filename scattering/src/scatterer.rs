@@ -173,7 +173,29 @@ impl Surroundings {
         }
         Err(ParamError::new(name, format!("{n} is not an index of refraction")))
     }
+
+    /// The radius (µm) of a sphere whose parts have the indices `relative` to the medium.
+    ///
+    /// # Errors
+    ///
+    /// If it is not positive, or if the sphere is too large for a series.
+    pub fn radius(&self, node: &Node, relative: &[Complex64]) -> Result<f64, ParamError> {
+        let radius = positive(node, "radius")?;
+        let largest = relative.iter().map(|m| m.norm()).fold(1.0, f64::max);
+        let size = self.wave_number() * radius * largest;
+        if size <= LARGEST_SPHERE {
+            return Ok(radius);
+        }
+        let problem = format!(
+            "a sphere of {radius} um has the size 2 pi n r/lambda = {size:.3e}; \
+             the series goes up to {LARGEST_SPHERE:e}"
+        );
+        Err(ParamError::new("radius", problem))
+    }
 }
+
+/// The largest 2π|n|r/λ of a sphere; as many terms take a second.
+const LARGEST_SPHERE: f64 = 1e7;
 
 /// The number `name`, which has to be positive and finite.
 ///

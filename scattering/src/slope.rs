@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use crate::{
     Defect,
+    lanes::WIDTH,
     spec::{Family, Member, Node, ParamError, Spec},
 };
 
@@ -23,6 +24,13 @@ pub mod unit;
 pub trait SlopeDistribution: Send + Sync {
     /// S(ζ_x, ζ_y), slopes in the frame of the sample.
     fn density(&self, zeta_x: f64, zeta_y: f64) -> f64;
+
+    /// S of several slopes (ζ_x, ζ_y).
+    ///
+    /// Overridden where a closed form works on several numbers at once; the bits do not change.
+    fn densities(&self, zeta: [[f64; WIDTH]; 2]) -> [f64; WIDTH] {
+        std::array::from_fn(|k| self.density(zeta[0][k], zeta[1][k]))
+    }
 
     /// Standard deviations of the slopes along x and y, where a closed form gives them.
     fn deviations(&self) -> Option<(f64, f64)> {

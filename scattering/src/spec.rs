@@ -5,6 +5,8 @@
 //! The manual, the JSON schema, the parameter tree of programs and the contract tests read
 //! these lists and nothing else.
 
+pub(crate) mod range;
+
 use std::{
     collections::BTreeSet,
     fmt,
@@ -433,13 +435,14 @@ impl Node {
         panic!("parameter {name} of {} holds {:?}", self.class.name, self.value(name))
     }
 
-    /// The real number `name`.
+    /// The real number `name`; 0 in a sound build if it is below 10⁻³⁰.
     ///
     /// # Panics
     ///
     /// This and the getters below: if the class does not declare the parameter with this kind.
     pub fn number(&self, name: &str) -> f64 {
         match self.value(name) {
+            Value::Number(x) if self.mode == Mode::Sound && x.abs() < range::LEAST => 0.0,
             Value::Number(x) => *x,
             _ => self.wrong(name),
         }

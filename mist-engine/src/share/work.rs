@@ -133,11 +133,7 @@ struct Todo {
 
 impl Todo {
     /// Where `integrals` collect light.
-    fn look_at(
-        &mut self,
-        integrals: &Arc<Vec<Integral>>,
-        layouts: &Map<LayoutKey, Numbered>,
-    ) {
+    fn look_at(&mut self, integrals: &Arc<Vec<Integral>>, layouts: &Map<LayoutKey, Numbered>) {
         if self.integrals.as_ref().is_some_and(|before| Arc::ptr_eq(before, integrals)) {
             return;
         }

@@ -21,13 +21,19 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use crate::Jones;
+use crate::{
+    Jones,
+    lanes::{Complex, Real},
+};
 
 const I: Complex64 = Complex64::I;
 const ONE: Complex64 = Complex64::ONE;
 
 /// The loss that NIST adds to the tangential index of light from inside the substrate.
 const TINY_LOSS: f64 = 1e-10;
+
+/// Smaller indices count as this one.
+const LEAST_INDEX: f64 = 1e-6;
 
 /// Below this phase sin δ / q is taken from its series.
 const SMALL_PHASE: f64 = 1e-2;
@@ -117,6 +123,9 @@ struct Entrance {
 
 impl Medium {
     fn new(index: Complex64) -> Self {
+        // A film whose graded index passes through 0 would have no admittance.
+        let index =
+            if index.norm_sqr() < LEAST_INDEX * LEAST_INDEX { LEAST_INDEX.into() } else { index };
         Self { index, epsilon: index * index }
     }
 
@@ -219,10 +228,26 @@ impl Films {
             let q0 = Complex64::from(q_outer);
             return self.entrance_with(Wave::FromOutside, kappa_squared.into(), q0).reflection();
         }
-        let q = self.root(self.substrate.epsilon - kappa_squared);
+        let [s, p] = self.bare(q_outer, kappa_squared);
+        Pair { s: s.into(), p: p.into() }
+    }
+
+    /// Whether [`Films::bare`] says what this interface reflects of light from outside.
+    pub(crate) fn is_bare(&self) -> bool {
+        self.layers.is_empty()
+    }
+
+    /// [`Films::r12_known`] of an interface without films, for one angle or for several.
+    #[inline(always)]
+    pub(crate) fn bare<R: Real>(&self, q_outer: R, kappa_squared: R) -> [Complex<R>; 2] {
         let (e0, et) = (self.outer.epsilon.re, self.substrate.epsilon);
-        let (a, b) = (et * q_outer, q * e0);
-        Pair { s: quotient(q_outer - q, q_outer + q), p: quotient(a - b, a + b) }
+        let mut q = root(-kappa_squared + et.re, et.im);
+        if self.growing && et.im == 0.0 {
+            q.im = -q.im;
+        }
+        let outer = Complex { re: q_outer, im: R::new(0.0) };
+        let (a, b) = (Complex { re: q_outer * et.re, im: q_outer * et.im }, q * R::new(e0));
+        [(outer - q).over(outer + q), (a - b).over(a + b)]
     }
 
     /// Fields at every interface for a wave from the side `from` with unit amplitude where it
@@ -438,21 +463,20 @@ fn phase_factor(q: Complex64, phase: f64) -> Complex64 {
 ///
 /// For q² = n² − κ² this is the wave that propagates or decays away from its source.
 pub fn decaying_root(z: Complex64) -> Complex64 {
-    if z.im == 0.0 {
-        return if z.re >= 0.0 {
-            Complex64::new(z.re.sqrt(), 0.0)
-        } else {
-            Complex64::new(0.0, (-z.re).sqrt())
-        };
-    }
-    let size = (z.re * z.re + z.im * z.im).sqrt();
-    let large = (0.5 * (size + z.re.abs())).sqrt();
-    let small = 0.5 * z.im / large;
-    if z.re >= 0.0 { Complex64::new(large, small) } else { Complex64::new(small, large) }
+    root(z.re, z.im).into()
 }
 
-fn quotient(a: Complex64, b: Complex64) -> Complex64 {
-    a * b.conj() * (1.0 / b.norm_sqr())
+/// [`decaying_root`] of several numbers with one imaginary part.
+#[inline(always)]
+fn root<R: Real>(re: R, im: f64) -> Complex<R> {
+    let part = |sign: f64| (re * sign).map(|x| if x < 0.0 { 0.0 } else { x }).sqrt();
+    if im == 0.0 {
+        return Complex { re: part(1.0), im: part(-1.0) };
+    }
+    let size = (re * re + im * im).sqrt();
+    let large = ((size + re.map(f64::abs)) * 0.5).sqrt();
+    let small = R::new(0.5 * im) / large;
+    Complex { re: re.choose(large, small), im: re.choose(small, large) }
 }
 
 #[cfg(test)]

@@ -106,6 +106,28 @@ impl Table {
         }
     }
 
+    /// The constant or the tabulated values; none of a formula.
+    pub(crate) fn ordinates(&self) -> impl Iterator<Item = f64> {
+        let (constant, points) = match self {
+            Self::Constant(value) => (Some(*value), &[][..]),
+            Self::Points(p) => (None, &p.points[..]),
+            Self::Formula(_) => (None, &[][..]),
+        };
+        constant.into_iter().chain(points.iter().map(|point| point.1))
+    }
+
+    /// Whether there is a number between any two points.
+    pub(crate) fn can_interpolate(&self) -> bool {
+        let Self::Points(p) = self else { return true };
+        let scaled = p.scaled.iter().flat_map(|point| [point.0, point.1]);
+        p.points
+            .iter()
+            .map(|point| point.0)
+            .chain(scaled)
+            .chain(p.slopes.iter().copied())
+            .all(f64::is_finite)
+    }
+
     /// The number of tabulated points and their range, or nothing for constants and formulas.
     pub fn extent(&self) -> Option<(usize, f64, f64)> {
         match self {

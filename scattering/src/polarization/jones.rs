@@ -5,6 +5,7 @@ use std::ops::{Add, Mul};
 use num_complex::Complex64;
 
 use super::Mueller;
+use crate::lanes::{Complex, Real};
 
 /// A Jones matrix, output × input: `[[ss, ps], [sp, pp]]`, where `ps` turns p into s and `sp`
 /// turns s into p.
@@ -48,20 +49,26 @@ impl Jones {
 
     /// The Mueller matrix of this non-depolarizing element.
     pub fn mueller(&self) -> Mueller {
-        let (a, b, c, d) = (self.ss, self.ps, self.sp, self.pp);
-        let (a2, b2, c2, d2) = (a.norm_sqr(), b.norm_sqr(), c.norm_sqr(), d.norm_sqr());
-        let (ab, cd) = (a * b.conj(), d * c.conj());
-        let (ac, bd) = (a * c.conj(), d * b.conj());
-        let (ad, bc) = (d * a.conj(), b * c.conj());
-        // Im(a d*) = −Im(d a*), Im(c b*) = −Im(b c*), and so on: the rows of 1.4 written with
-        // six products.
-        Mueller([
-            [0.5 * (a2 + b2 + c2 + d2), 0.5 * (a2 - b2 + c2 - d2), ab.re + cd.re, ab.im - cd.im],
-            [0.5 * (a2 + b2 - c2 - d2), 0.5 * (a2 - b2 - c2 + d2), ab.re - cd.re, ab.im + cd.im],
-            [ac.re + bd.re, ac.re - bd.re, ad.re + bc.re, -ad.im - bc.im],
-            [-ac.im + bd.im, -ac.im - bd.im, ad.im - bc.im, ad.re - bc.re],
-        ])
+        Mueller(elements([self.ss, self.ps, self.sp, self.pp].map(Complex::from)))
     }
+}
+
+/// The elements of the Mueller matrix of the Jones matrix with the elements ss, ps, sp, pp.
+#[inline(always)]
+pub(crate) fn elements<R: Real>([a, b, c, d]: [Complex<R>; 4]) -> [[R; 4]; 4] {
+    let (a2, b2, c2, d2) = (a.norm_sqr(), b.norm_sqr(), c.norm_sqr(), d.norm_sqr());
+    let (ab, cd) = (a.times_conjugate(b), d.times_conjugate(c));
+    let (ac, bd) = (a.times_conjugate(c), d.times_conjugate(b));
+    let (ad, bc) = (d.times_conjugate(a), b.times_conjugate(c));
+    let half = |x: R| x * 0.5;
+    // Im(a d*) = −Im(d a*), Im(c b*) = −Im(b c*), and so on: the rows of 1.4 written with six
+    // products.
+    [
+        [half(a2 + b2 + c2 + d2), half(a2 - b2 + c2 - d2), ab.re + cd.re, ab.im - cd.im],
+        [half(a2 + b2 - c2 - d2), half(a2 - b2 - c2 + d2), ab.re - cd.re, ab.im + cd.im],
+        [ac.re + bd.re, ac.re - bd.re, ad.re + bc.re, -ad.im - bc.im],
+        [-ac.im + bd.im, -ac.im - bd.im, ad.im - bc.im, ad.re - bc.re],
+    ]
 }
 
 impl Mul for Jones {

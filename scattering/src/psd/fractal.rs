@@ -2,11 +2,13 @@
 //!
 //! $$ \mathrm{PSD} = A / f^{\,n} $$
 //!
-//! f = √(f_x² + f_y²), n the exponent. Infinite at f = 0.
+//! f = √(f_x² + f_y²), n the exponent. It grows without bound as f falls; waves longer than a metre
+//! count as those of a metre, since no sample is larger. NIST's library is infinite at f = 0.
 //!
 //! E. L. Church, *Fractal surface finish*, Appl. Opt. 27, 1518 (1988).
 
 use crate::{
+    Mode, ParamError,
     psd::{Psd, strength},
     spec::{Class, Laws, Param, Spec},
 };
@@ -27,19 +29,32 @@ pub const SPEC: Spec<dyn Psd> = Spec {
     },
     build: |node| {
         let exponent = node.number("exponent");
-        Ok(Box::new(Fractal { a: strength(node, "A")?, power: -0.5 * exponent }))
+        let is_sound = node.mode == Mode::Sound;
+        if is_sound && exponent.abs() > STEEPEST {
+            let problem = format!("{exponent} is not from -{STEEPEST} to {STEEPEST}");
+            return Err(ParamError::new("exponent", problem));
+        }
+        let least = if is_sound { LEAST_SQUARED } else { 0.0 };
+        Ok(Box::new(Fractal { a: strength(node, "A")?, power: -0.5 * exponent, least }))
     },
 };
+
+/// Square of the least frequency that is told from 0, 1/µm².
+const LEAST_SQUARED: f64 = 1e-12;
+/// Exponents beyond this are no surface's; their powers overflow.
+const STEEPEST: f64 = 30.0;
 
 /// A power law.
 #[derive(Clone, Debug)]
 pub struct Fractal {
     a: f64,
     power: f64,
+    /// f² counts as this at least.
+    least: f64,
 }
 
 impl Psd for Fractal {
     fn density(&self, fx: f64, fy: f64) -> f64 {
-        self.a * (fx * fx + fy * fy).powf(self.power)
+        self.a * (fx * fx + fy * fy).max(self.least).powf(self.power)
     }
 }

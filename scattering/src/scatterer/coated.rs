@@ -5,7 +5,7 @@
 //! A. L. Aden and M. Kerker, J. Appl. Phys. 22, 1242 (1951); C. F. Bohren and D. R. Huffman,
 //! *Absorption and Scattering of Light by Small Particles* (Wiley, 1983), 8.1.
 
-use super::{FREE_SPACE, SPHERE, Scatterer, Surroundings, mie::Mie, positive, series};
+use super::{FREE_SPACE, SPHERE, Scatterer, Surroundings, mie::Mie, series};
 use crate::{
     Node,
     spec::{Class, Laws, Param, ParamError, Spec},
@@ -36,15 +36,17 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
     },
     build: |node| {
         let around = Surroundings::read(node)?;
-        let radius = positive(node, "radius")?;
+        let sphere = around.relative_index(node, "sphere")?;
+        let coating = around.relative_index(node, "coating")?;
+        let radius = around.radius(node, &[sphere, coating])?;
         let thickness = node.number("thickness");
         if !(0.0..=radius).contains(&thickness) {
             let problem = format!("{thickness} um is not from 0 to the radius {radius} um");
             return Err(ParamError::new("thickness", problem));
         }
         let k = around.wave_number();
-        let core = (around.relative_index(node, "sphere")?, k * (radius - thickness));
-        let coat = (around.relative_index(node, "coating")?, k * radius);
+        let core = (sphere, k * (radius - thickness));
+        let coat = (coating, k * radius);
         let terms = terms(node, series::terms(k * radius))?;
         Ok(Box::new(Mie::layered(around, &[core, coat], terms)))
     },

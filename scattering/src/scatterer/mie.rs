@@ -11,7 +11,7 @@
 use num_complex::Complex64;
 
 use super::{
-    CrossSections, FREE_SPACE, Round, SPHERE, Scatterer, Surroundings, layered, positive,
+    CrossSections, FREE_SPACE, Round, SPHERE, Scatterer, Surroundings, layered,
     series::{self, Series},
 };
 use crate::{
@@ -33,8 +33,8 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
     },
     build: |node| {
         let around = Surroundings::read(node)?;
-        let radius = positive(node, "radius")?;
         let m = around.relative_index(node, "sphere")?;
+        let radius = around.radius(node, &[m])?;
         Ok(Box::new(Mie::homogeneous(node, around, m, radius)))
     },
 };

@@ -5,9 +5,7 @@
 //!
 //! W. Yang, Appl. Opt. 42, 1710 (2003).
 
-use super::{
-    FREE_SPACE, SPHERE, Scatterer, Surroundings, layered::Layer, mie::Mie, positive, series,
-};
+use super::{FREE_SPACE, SPHERE, Scatterer, Surroundings, layered::Layer, mie::Mie, series};
 use crate::{
     spec::{Class, Family, Laws, Param, ParamError, Spec},
     stack::Stack,
@@ -36,8 +34,14 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
     },
     build: |node| {
         let around = Surroundings::read(node)?;
-        let radius = positive(node, "radius")?;
-        let coats = node.member::<Stack>("stack")?.at(around.lambda);
+        let sphere = around.relative_index(node, "sphere")?;
+        let stack = node.member::<Stack>("stack")?.at(around.lambda);
+        let coats: Vec<Layer> = stack
+            .into_iter()
+            .map(|(index, thickness)| Ok((around.relative(index, "stack")?, thickness)))
+            .collect::<Result<_, _>>()?;
+        let indices: Vec<_> = coats.iter().map(|coat| coat.0).chain([sphere]).collect();
+        let radius = around.radius(node, &indices)?;
         let total: f64 = coats.iter().map(|coat| coat.1).sum();
         if !(0.0..=radius).contains(&total) {
             let problem = format!("coats of {total} um do not fit in the radius {radius} um");
@@ -45,10 +49,10 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         }
         let k = around.wave_number();
         let mut r = radius - total;
-        let mut layers: Vec<Layer> = vec![(around.relative_index(node, "sphere")?, k * r)];
+        let mut layers: Vec<Layer> = vec![(sphere, k * r)];
         for (index, thickness) in coats {
             r += thickness;
-            layers.push((around.relative(index, "stack")?, k * r));
+            layers.push((index, k * r));
         }
         Ok(Box::new(Mie::layered(around, &layers, series::terms(k * radius))))
     },

@@ -16,7 +16,7 @@
 use num_complex::Complex64;
 
 use super::{
-    FREE_SPACE, Round, Scatterer, Surroundings, positive,
+    FREE_SPACE, Round, Scatterer, Surroundings,
     series::{self, AngularFunctions, Series},
 };
 use crate::{
@@ -45,9 +45,9 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
     },
     build: |node| {
         let around = Surroundings::read(node)?;
-        let radius = positive(node, "radius")?;
         let left = around.relative_index(node, "materialleft")?;
         let right = around.relative_index(node, "materialright")?;
+        let radius = around.radius(node, &[left, right])?;
         Ok(Box::new(OpticallyActive::new(around, left, right, radius)))
     },
 };

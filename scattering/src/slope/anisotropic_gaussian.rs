@@ -16,7 +16,10 @@
 use std::f64::consts::TAU;
 
 use super::{SlopeDistribution, width};
-use crate::spec::{Class, Laws, Param, ParamError, Spec};
+use crate::{
+    lanes::{Lanes, Real, WIDTH},
+    spec::{Class, Laws, Param, ParamError, Spec},
+};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
@@ -59,11 +62,24 @@ struct AnisotropicGaussian {
     printed: bool,
 }
 
-impl SlopeDistribution for AnisotropicGaussian {
-    fn density(&self, x: f64, y: f64) -> f64 {
+impl AnisotropicGaussian {
+    #[inline(always)]
+    fn at<R: Real>(&self, x: R, y: R) -> R {
         let (a, b) = self.half_inverse;
         let half = x * x * a + y * y * b;
-        self.peak * if self.printed { (-(2.0 * half).sqrt()).exp() } else { (-half).exp() }
+        let exponent = if self.printed { (half * 2.0).sqrt() } else { half };
+        (-exponent).exp_falling() * self.peak
+    }
+}
+
+impl SlopeDistribution for AnisotropicGaussian {
+    fn density(&self, x: f64, y: f64) -> f64 {
+        self.at(x, y)
+    }
+
+    fn densities(&self, zeta: [[f64; WIDTH]; 2]) -> [f64; WIDTH] {
+        let [x, y] = zeta.map(Lanes);
+        self.at(x, y).0
     }
 
     fn deviations(&self) -> Option<(f64, f64)> {

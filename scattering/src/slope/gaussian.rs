@@ -10,7 +10,10 @@
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2};
 
 use super::{SlopeDistribution, width};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::{
+    lanes::{Lanes, Real, WIDTH},
+    spec::{Class, Laws, Param, Spec},
+};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
@@ -37,9 +40,21 @@ struct Gaussian {
     inverse: f64,
 }
 
+impl Gaussian {
+    #[inline(always)]
+    fn at<R: Real>(&self, x: R, y: R) -> R {
+        (-(x * x + y * y) * self.inverse).exp_falling() * self.peak
+    }
+}
+
 impl SlopeDistribution for Gaussian {
     fn density(&self, x: f64, y: f64) -> f64 {
-        self.peak * (-(x * x + y * y) * self.inverse).exp()
+        self.at(x, y)
+    }
+
+    fn densities(&self, zeta: [[f64; WIDTH]; 2]) -> [f64; WIDTH] {
+        let [x, y] = zeta.map(Lanes);
+        self.at(x, y).0
     }
 
     fn deviations(&self) -> Option<(f64, f64)> {

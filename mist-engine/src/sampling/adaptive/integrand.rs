@@ -46,7 +46,7 @@ impl<'a> Integrand<'a> {
                 m.0[1][k] = c * first[k] - s * second[k];
                 m.0[2][k] = s * first[k] + c * second[k];
             }
-            *m = *m * v.z;
+            *m *= v.z;
         }
     }
 

@@ -26,7 +26,7 @@ const DENSEST: f64 = 0.74;
 
 /// The body of `node` inside a binder of index `binder`.
 pub(super) fn read(node: &Node, lambda: f64, binder: f64) -> Result<Slab, ParamError> {
-    let backing = node.member::<dyn Reflectance>("backing")?.at(lambda);
+    let backing = reflectance::read(node, "backing", lambda)?;
     if !(0.0..=1.0).contains(&backing) {
         return Err(ParamError::new("backing", format!("{backing} is not from 0 to 1")));
     }

@@ -44,8 +44,7 @@ use super::{
 use crate::{
     Basis, Direction, Incidence, Model, Mueller, Node, ParamError,
     models::{self, Brdf, COMMON, Common, diffuse},
-    reflectance::Reflectance,
-    slope,
+    reflectance, slope,
     spec::{Class, Family, Laws, Param, Spec},
     special::gauss,
     stack::Stack,
@@ -239,8 +238,8 @@ fn diffuse_body(
         let interface = Interface::new((above, n), &films, common.lambda, None)?;
         coats.push(Coat { interface, n, depth: 0.0 });
     }
-    let reflectance = below.member::<dyn Reflectance>("reflectance").map_err(inside)?;
-    Ok(Some(reflectance.at(common.lambda)))
+    let reflectance = reflectance::read(below, "reflectance", common.lambda);
+    reflectance.map(Some).map_err(inside)
 }
 
 impl Coat {

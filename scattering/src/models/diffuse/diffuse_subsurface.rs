@@ -22,7 +22,7 @@ use crate::{
     Defect, Direction, Incidence, Mueller, Node, ParamError,
     models::{Brdf, COMMON, Common},
     optics::film::Films,
-    reflectance::Reflectance,
+    reflectance,
     spec::{Class, Laws, Spec},
     special::gauss,
 };
@@ -58,7 +58,7 @@ impl DiffuseSubsurface {
         common.only_reflection(SPEC.class.name)?;
         let n = common.substrate.re;
         let films = interface(node, &common, n.into())?;
-        let body = node.member::<dyn Reflectance>("reflectance")?.at(common.lambda);
+        let body = reflectance::read(node, "reflectance", common.lambda)?;
         let rho = recycled(node, &common, &films)?;
         let strength = FRAC_1_PI * body / (n * n * (1.0 - rho * body));
         Ok(Self { common, films, n2: n * n, strength })

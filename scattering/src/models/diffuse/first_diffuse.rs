@@ -202,7 +202,7 @@ mod tests {
         let scalar = Node::with_defaults(class("Isotropic_Phase_Function"), Mode::Sound);
         let phase = Node::with_defaults(class("Unpolarized_Phase_Function"), Mode::Sound)
             .with("phase_function", Value::Member(Arc::new(scalar)))
-            .and_then(|node| node.with("log_absorption", Value::Number(f64::NEG_INFINITY)))
+            .and_then(|node| node.with("log_absorption", Value::Number(-300.0)))
             .unwrap();
         let node = Node::with_defaults(&SPEC.class, Mode::Sound)
             .with("substrate", Value::Index(Index::constant(n, 0.0)))

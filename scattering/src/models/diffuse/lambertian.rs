@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_1_PI;
 use crate::{
     Direction, Incidence, Mueller,
     models::{Brdf, COMMON, Common},
-    reflectance::Reflectance,
+    reflectance,
     spec::{Class, Family, Laws, Param, Spec},
 };
 
@@ -39,7 +39,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = Common::read(node)?;
-        let reflectance = node.member::<dyn Reflectance>("reflectance")?.at(common.lambda);
+        let reflectance = reflectance::read(node, "reflectance", common.lambda)?;
         Ok(Box::new(Lambertian { common, reflectance }))
     },
 };

@@ -23,11 +23,16 @@
 use glam::DVec3;
 use num_complex::Complex64;
 
-use super::{FACET, turn::Turn};
+use super::{
+    FACET,
+    turn::{Outgoing, Tilted, Turn},
+};
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
+    lanes::{Lanes, WIDTH},
     models::{Brdf, COMMON, Common},
     optics::film::{Films, Pair},
+    polarization::elements,
     slope::SlopeDistribution,
     spec::{Class, Laws, Spec},
     stack::Stack,
@@ -97,23 +102,49 @@ impl Facet {
 
     #[inline]
     fn reflection(&self, incidence: &Incidence, direction: &Direction) -> (Jones, f64) {
-        let (k_i, k_o) = (incidence.k(), direction.k());
-        // |k_o − k_i| = 2 cos ι, |k_o + k_i| = 2 sin ι.
-        let h = k_o - k_i;
-        let h2 = h.length_squared();
-        let sin2 = 0.25 * (k_o + k_i).length_squared();
+        let facet = Tilted::between(incidence, &Outgoing::one(direction));
         let from_below = self.common.side.from_below();
         let coefficients = if from_below {
-            self.films.r21(self.films.kappa_inside(sin2.sqrt()))
+            self.films.r21(self.films.kappa_inside(facet.sin2.sqrt()))
         } else {
-            self.films.r12_known(0.5 * h2.sqrt(), sin2)
+            self.films.r12_known(facet.cos(), facet.sin2)
         };
-        let unturned = self.unturned && sin2 <= UNTURNED_REFLECTION;
+        let unturned = self.unturned && facet.sin2 <= UNTURNED_REFLECTION;
         let (jones, norm) = turned(incidence, direction, direction.cos, coefficients, unturned);
-        let z2 = h.z * h.z;
-        let weight = self.density(incidence, h) * h2 * h2
-            / (4.0 * z2 * z2 * incidence.cos * direction.cos * norm);
+        let [x, y] = facet.slopes;
+        let weight = self.slopes.density(x, y) * facet.elongation()
+            / (direction.cos * (4.0 * incidence.cos) * norm);
         (if from_below { jones.flipped() } else { jones }, weight)
+    }
+
+    /// The same for several directions and bare facets met from above, as matrices.
+    #[inline]
+    fn reflections(
+        &self,
+        incidence: &Incidence,
+        directions: &[Direction; WIDTH],
+        out: &mut [Mueller; WIDTH],
+    ) {
+        let to = Outgoing::several(directions);
+        let facet = Tilted::between(incidence, &to);
+        let turn = Turn::new(incidence, &to, to.cos);
+        let norm = turn.norm();
+        let jones = turn.elements(self.films.bare(facet.cos(), facet.sin2));
+        let density = Lanes(self.slopes.densities(facet.slopes.map(|slope| slope.0)));
+        let weight = density * facet.elongation() / (to.cos * (4.0 * incidence.cos) * norm);
+        for (i, row) in elements(jones).into_iter().enumerate() {
+            for (j, element) in row.into_iter().enumerate() {
+                for (m, x) in out.iter_mut().zip((element * weight).0) {
+                    m.0[i][j] = x;
+                }
+            }
+        }
+        for (k, m) in out.iter_mut().enumerate() {
+            let unturned = self.unturned && facet.sin2.0[k] <= UNTURNED_REFLECTION;
+            if norm.0[k] < f64::MIN_POSITIVE || unturned {
+                *m = self.mueller(incidence, &directions[k]);
+            }
+        }
     }
 
     fn refraction(&self, incidence: &Incidence, direction: &Direction) -> Option<(Jones, f64)> {
@@ -156,7 +187,7 @@ pub(super) fn turned(
     coefficients: Pair,
     unturned: bool,
 ) -> (Jones, f64) {
-    let mut turn = Turn::new(incidence, direction, z);
+    let mut turn = Turn::new(incidence, &Outgoing::one(direction), z);
     let mut norm = turn.norm();
     if norm < f64::MIN_POSITIVE || unturned {
         turn = if unturned { Turn::none() } else { Turn::along_normal(direction, z) };
@@ -174,6 +205,21 @@ impl Brdf for Facet {
         match self.event(incidence, direction) {
             Some((jones, weight)) => jones.mueller() * weight,
             None => Mueller::ZERO,
+        }
+    }
+
+    fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
+        let (mut rest, mut left) = (directions, &mut *out);
+        if self.common.side == Side::DownUp && self.films.is_bare() {
+            let (several, to) = (directions.as_chunks().0, out.as_chunks_mut().0);
+            for (directions, out) in several.iter().zip(to) {
+                self.reflections(incidence, directions, out);
+            }
+            let done = several.len() * WIDTH;
+            (rest, left) = (&directions[done..], &mut out[done..]);
+        }
+        for (m, direction) in left.iter_mut().zip(rest) {
+            *m = self.mueller(incidence, direction);
         }
     }
 

@@ -17,7 +17,11 @@
 
 use num_complex::Complex64;
 
-use super::{FACET, bare::turned};
+use super::{
+    FACET,
+    bare::turned,
+    turn::{Outgoing, Tilted},
+};
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Node, ParamError,
     models::{Brdf, COMMON, Common},
@@ -121,19 +125,13 @@ impl SubsurfaceFacet {
     /// (J, w) of the flakes alone between rays inside the coat; w lacks 1/(4 cos θ_i cos θ_s).
     fn flakes(&self, inside: &Inside) -> (Jones, f64) {
         let Inside { incidence, direction } = inside;
-        let (k_i, k_o) = (incidence.k(), direction.k());
-        let h = k_o - k_i;
-        let h2 = h.length_squared();
-        let sin2 = 0.25 * (k_o + k_i).length_squared();
+        let facet = Tilted::between(incidence, &Outgoing::one(direction));
         let n = self.coat;
-        let coefficients = self.flakes.r12_known(n * 0.5 * h2.sqrt(), n * n * sin2);
-        let unturned = self.unturned && sin2 <= UNTURNED;
+        let coefficients = self.flakes.r12_known(n * facet.cos(), n * n * facet.sin2);
+        let unturned = self.unturned && facet.sin2 <= UNTURNED;
         let (jones, norm) = turned(incidence, direction, direction.cos, coefficients, unturned);
-        let (x, y) = (h.x / h.z, h.y / h.z);
-        let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);
-        let density = self.slopes.density(x * cos + y * sin, y * cos - x * sin);
-        let z2 = h.z * h.z;
-        (jones, density * h2 * h2 / (z2 * z2 * norm))
+        let [x, y] = facet.slopes;
+        (jones, self.slopes.density(x, y) * facet.elongation() / norm)
     }
 
     fn crossing(&self, sin: f64) -> Pair {

@@ -15,21 +15,99 @@
 //!
 //! T. A. Germer and E. Marx, Appl. Opt. 43, 1266 (2004).
 
-use crate::{Direction, Incidence, Jones, optics::film::Pair};
+use crate::{
+    Direction, Incidence, Jones,
+    lanes::{Complex, Lanes, Real, WIDTH},
+    optics::film::Pair,
+};
+
+/// A scattered ray, or several: what of [`Direction`] formulas need.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outgoing<R> {
+    pub(crate) sin: R,
+    pub(crate) cos: R,
+    pub(crate) sin_phi: R,
+    pub(crate) cos_phi: R,
+}
+
+impl Outgoing<f64> {
+    #[inline]
+    pub(crate) fn one(direction: &Direction) -> Self {
+        let &Direction { sin, cos, sin_phi, cos_phi, .. } = direction;
+        Self { sin, cos, sin_phi, cos_phi }
+    }
+}
+
+impl Outgoing<Lanes> {
+    #[inline(always)]
+    pub(crate) fn several(directions: &[Direction; WIDTH]) -> Self {
+        let each = |f: fn(&Direction) -> f64| Lanes(directions.each_ref().map(f));
+        Self {
+            sin: each(|d| d.sin),
+            cos: each(|d| d.cos),
+            sin_phi: each(|d| d.sin_phi),
+            cos_phi: each(|d| d.cos_phi),
+        }
+    }
+}
+
+/// The facets that reflect a beam into one direction or several.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tilted<R> {
+    /// |h|², h = k_o − k_i along their normals: 4 cos² ι.
+    h2: R,
+    /// h_z².
+    z2: R,
+    /// sin² ι.
+    pub(crate) sin2: R,
+    /// Their slopes in the frame of the sample.
+    pub(crate) slopes: [R; 2],
+}
+
+impl<R: Real> Tilted<R> {
+    #[inline(always)]
+    pub(crate) fn between(incidence: &Incidence, to: &Outgoing<R>) -> Self {
+        let (kx, ky) = (to.sin * to.cos_phi, to.sin * to.sin_phi);
+        let length_squared = |x: R, z: R| x * x + ky * ky + z * z;
+        let (hx, hz) = (kx - incidence.sin, to.cos + incidence.cos);
+        // |k_o + k_i| = 2 sin ι.
+        let sin2 = length_squared(kx + incidence.sin, to.cos - incidence.cos) * 0.25;
+        let (x, y) = (hx / hz, ky / hz);
+        let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);
+        Self {
+            h2: length_squared(hx, hz),
+            z2: hz * hz,
+            sin2,
+            slopes: [x * cos + y * sin, y * cos - x * sin],
+        }
+    }
+
+    /// cos ι.
+    #[inline(always)]
+    pub(crate) fn cos(&self) -> R {
+        self.h2.sqrt() * 0.5
+    }
+
+    /// 1/n_z⁴.
+    #[inline(always)]
+    pub(crate) fn elongation(&self) -> R {
+        self.h2 * self.h2 / (self.z2 * self.z2)
+    }
+}
 
 /// The projections of w; s and p of each ray are those of positive polar angles at its azimuth.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Turn {
-    incoming: [f64; 2],
-    outgoing: [f64; 2],
+pub(crate) struct Turn<R> {
+    incoming: [R; 2],
+    outgoing: [R; 2],
 }
 
-impl Turn {
+impl<R: Real> Turn<R> {
     /// Between the rays (sin θ_i, 0, −cos θ_i) and (sin θ_s cos φ, sin θ_s sin φ, `z`).
-    #[inline]
-    pub(crate) fn new(incidence: &Incidence, direction: &Direction, z: f64) -> Self {
+    #[inline(always)]
+    pub(crate) fn new(incidence: &Incidence, to: &Outgoing<R>, z: R) -> Self {
         let (si, ci) = (incidence.sin, incidence.cos);
-        let (so, sin, cos) = (direction.sin, direction.sin_phi, direction.cos_phi);
+        let (so, sin, cos) = (to.sin, to.sin_phi, to.cos_phi);
         let across = so * sin;
         let w = [-across * ci, z * si + so * cos * ci, -across * si];
         Self {
@@ -38,6 +116,29 @@ impl Turn {
         }
     }
 
+    /// |w|⁴, by which intensities of [`Turn::apply`] are too large.
+    #[inline(always)]
+    pub(crate) fn norm(&self) -> R {
+        let [c, d] = self.incoming;
+        let [cc, dd] = self.outgoing;
+        (c * c + d * d) * (cc * cc + dd * dd)
+    }
+
+    /// The elements ss, ps, sp and pp of |w|² J for the facet's own coefficients of s and p.
+    #[inline(always)]
+    pub(crate) fn elements(&self, [s, p]: [Complex<R>; 2]) -> [Complex<R>; 4] {
+        let [c, d] = self.incoming;
+        let [cc, dd] = self.outgoing;
+        [
+            s * (cc * c) + p * (dd * d),
+            s * (cc * d) - p * (dd * c),
+            s * (dd * c) - p * (cc * d),
+            s * (dd * d) + p * (cc * c),
+        ]
+    }
+}
+
+impl Turn<f64> {
     /// The turn of a facet that is met exactly along its normal: its s is that of the incident ray.
     #[inline]
     pub(crate) fn along_normal(direction: &Direction, z: f64) -> Self {
@@ -49,25 +150,11 @@ impl Turn {
         Self { incoming: [1.0, 0.0], outgoing: [1.0, 0.0] }
     }
 
-    /// |w|⁴, by which intensities of [`Turn::apply`] are too large.
-    #[inline]
-    pub(crate) fn norm(&self) -> f64 {
-        let [c, d] = self.incoming;
-        let [cc, dd] = self.outgoing;
-        (c * c + d * d) * (cc * cc + dd * dd)
-    }
-
     /// |w|² J for the facet's own `coefficients`.
     #[inline]
     pub(crate) fn apply(&self, coefficients: Pair) -> Jones {
         let Pair { s, p } = coefficients;
-        let [c, d] = self.incoming;
-        let [cc, dd] = self.outgoing;
-        Jones {
-            ss: s * (cc * c) + p * (dd * d),
-            ps: s * (cc * d) - p * (dd * c),
-            sp: s * (dd * c) - p * (cc * d),
-            pp: s * (dd * d) + p * (cc * c),
-        }
+        let [ss, ps, sp, pp] = self.elements([s.into(), p.into()]).map(Into::into);
+        Jones { ss, ps, sp, pp }
     }
 }

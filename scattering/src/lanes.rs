@@ -1,0 +1,274 @@
+//! Several numbers at once: closed forms for a batch of directions.
+//!
+//! A formula is written once over [`Real`] and works on one number or on [`Lanes`]. These are
+//! arrays whose loops become vector instructions; each lane goes through the operations of one
+//! number in their order, so a batch has the bits of its directions one by one, on every machine.
+
+use std::{
+    f64::consts::LOG2_E,
+    ops::{Add, Div, Mul, Neg, Sub},
+};
+
+use num_complex::Complex64;
+
+/// Numbers in [`Lanes`].
+pub(crate) const WIDTH: usize = 2;
+
+/// One number, or several that go the same way.
+pub(crate) trait Real:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// The number `x`, in every lane.
+    fn new(x: f64) -> Self;
+
+    /// `f` of each number.
+    fn map(self, f: impl Fn(f64) -> f64) -> Self;
+
+    /// `f` of each three numbers.
+    fn zip(x: [Self; 3], f: impl Fn([f64; 3]) -> f64) -> Self;
+
+    /// The square root.
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    /// `a` where this is not negative, `b` elsewhere.
+    #[inline(always)]
+    fn choose(self, a: Self, b: Self) -> Self {
+        Self::zip([self, a, b], |[x, a, b]| if x >= 0.0 { a } else { b })
+    }
+
+    /// e^x for x ≤ 0, to 2·10⁻¹⁶ of it; 0 from −708 on, where numbers begin to lose digits.
+    ///
+    /// 2^k times the series of e^r, |r| ≤ ln 2/2, whose first term left out is r¹⁴/14! < 4·10⁻¹⁸.
+    #[inline(always)]
+    fn exp_falling(self) -> Self {
+        let within = self.map(|x| if x < LAST { LAST } else { x });
+        let shifted = within * LOG2_E + ROUNDING;
+        let k = shifted - ROUNDING;
+        let r = within - k * LN_2[0] - k * LN_2[1];
+        let mut sum = Self::new(SERIES[0]);
+        for coefficient in &SERIES[1..] {
+            sum = sum * r + *coefficient;
+        }
+        let power = shifted.map(|x| f64::from_bits(x.to_bits().wrapping_add(1023) << 52));
+        // NaN is passed on.
+        (-self + LAST).choose(Self::new(0.0), sum * power)
+    }
+}
+
+/// e^x is 0 from here on.
+const LAST: f64 = -708.0;
+/// 1.5·2⁵²: what is added to it is rounded to an integer in the last bits.
+const ROUNDING: f64 = 6_755_399_441_055_744.0;
+/// ln 2 in two parts, the first with zeros at its end, so that k times it is exact.
+const LN_2: [f64; 2] = [6.931_471_803_691_238_2e-1, 1.908_214_929_270_587_7e-10];
+/// 1/13!, 1/12!, …, 1/0!.
+const SERIES: [f64; 14] = [
+    1.0 / 6_227_020_800.0,
+    1.0 / 479_001_600.0,
+    1.0 / 39_916_800.0,
+    1.0 / 3_628_800.0,
+    1.0 / 362_880.0,
+    1.0 / 40_320.0,
+    1.0 / 5_040.0,
+    1.0 / 720.0,
+    1.0 / 120.0,
+    1.0 / 24.0,
+    1.0 / 6.0,
+    0.5,
+    1.0,
+    1.0,
+];
+
+impl Real for f64 {
+    #[inline(always)]
+    fn new(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        f(self)
+    }
+
+    #[inline(always)]
+    fn zip(x: [Self; 3], f: impl Fn([f64; 3]) -> f64) -> Self {
+        f(x)
+    }
+}
+
+/// [`WIDTH`] numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lanes(pub(crate) [f64; WIDTH]);
+
+impl Real for Lanes {
+    #[inline(always)]
+    fn new(x: f64) -> Self {
+        Self([x; WIDTH])
+    }
+
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        let mut all = self.0;
+        for x in &mut all {
+            *x = f(*x);
+        }
+        Self(all)
+    }
+
+    #[inline(always)]
+    fn zip(x: [Self; 3], f: impl Fn([f64; 3]) -> f64) -> Self {
+        let mut all = [0.0; WIDTH];
+        for k in 0..WIDTH {
+            all[k] = f([x[0].0[k], x[1].0[k], x[2].0[k]]);
+        }
+        Self(all)
+    }
+}
+
+impl Neg for Lanes {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(|x| -x)
+    }
+}
+
+macro_rules! arithmetic {
+    ($($operation:ident $function:ident)*) => {$(
+        impl $operation for Lanes {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                let mut all = self.0;
+                for (x, y) in all.iter_mut().zip(other.0) {
+                    *x = x.$function(y);
+                }
+                Self(all)
+            }
+        }
+
+        impl $operation<f64> for Lanes {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: f64) -> Self {
+                self.map(|x| x.$function(other))
+            }
+        }
+    )*};
+}
+
+arithmetic!(Add add Sub sub Mul mul Div div);
+
+/// A complex number, or several.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Complex<R> {
+    pub(crate) re: R,
+    pub(crate) im: R,
+}
+
+impl<R: Real> Complex<R> {
+    /// a b*.
+    #[inline(always)]
+    pub(crate) fn times_conjugate(self, b: Self) -> Self {
+        Self { re: self.re * b.re + self.im * b.im, im: self.im * b.re - self.re * b.im }
+    }
+
+    /// |z|².
+    #[inline(always)]
+    pub(crate) fn norm_sqr(self) -> R {
+        self.re * self.re + self.im * self.im
+    }
+
+    /// a/b.
+    #[inline(always)]
+    pub(crate) fn over(self, b: Self) -> Self {
+        self.times_conjugate(b) * (R::new(1.0) / b.norm_sqr())
+    }
+}
+
+impl From<Complex64> for Complex<f64> {
+    #[inline(always)]
+    fn from(z: Complex64) -> Self {
+        Self { re: z.re, im: z.im }
+    }
+}
+
+impl From<Complex<f64>> for Complex64 {
+    #[inline(always)]
+    fn from(z: Complex<f64>) -> Self {
+        Self::new(z.re, z.im)
+    }
+}
+
+impl<R: Real> Add for Complex<R> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Self { re: self.re + b.re, im: self.im + b.im }
+    }
+}
+
+impl<R: Real> Sub for Complex<R> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        Self { re: self.re - b.re, im: self.im - b.im }
+    }
+}
+
+impl<R: Real> Mul<R> for Complex<R> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, x: R) -> Self {
+        Self { re: self.re * x, im: self.im * x }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_falling_exponential_is_that_of_the_standard_library() {
+        for k in 0..=70_000 {
+            let x = -0.01 * f64::from(k) - 1e-5 * f64::from(k % 97);
+            let (got, expected) = (x.exp_falling(), x.exp());
+            // Two units in the last place.
+            assert!((got - expected).abs() <= 4.5e-16 * expected, "{x}: {got:e} {expected:e}");
+        }
+        assert_eq!([0f64, -709.0].map(f64::exp_falling), [1.0, 0.0]);
+        assert_eq!([-1e300, f64::NEG_INFINITY].map(f64::exp_falling), [0.0, 0.0]);
+        assert!(f64::NAN.exp_falling().is_nan());
+    }
+
+    #[test]
+    fn every_lane_has_the_bits_of_its_number_alone() {
+        fn formula<R: Real>(x: R, y: R) -> R {
+            let z = Complex { re: x, im: y - 0.3 };
+            let w = z.over(Complex { re: y, im: x * 2.0 + 1.0 }) * (x * x + y).sqrt();
+            (x - y).choose((-(w.norm_sqr())).exp_falling(), w.re / y)
+        }
+        let (x, y) = ([0.1, 7.0], [0.4, 6.9]);
+        let all = formula(Lanes(x), Lanes(y));
+        for k in 0..WIDTH {
+            assert_eq!(all.0[k].to_bits(), formula(x[k], y[k]).to_bits());
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Numbers that no formula can work with, refused before a class is built.
+
+use num_complex::Complex64;
+
+use super::{Node, ParamError, Value};
+use crate::optics::{Index, Table};
+
+/// Numbers beyond this are mistakes in every unit that parameters have, and their powers overflow.
+const LARGEST: f64 = 1e30;
+/// Numbers below this are nothing in every unit that parameters have, and their powers vanish.
+pub(super) const LEAST: f64 = 1e-30;
+/// Indices of refraction beyond this belong to no material from X-rays to microwaves.
+const LARGEST_INDEX: f64 = 1e6;
+/// Nor do indices below this.
+const LEAST_INDEX: f64 = 1e-6;
+/// From gamma rays to the longest radio waves, µm.
+const WAVELENGTHS: std::ops::RangeInclusive<f64> = 1e-9..=1e12;
+
+/// Looks at every number in `node` and below it; `lambda` is the vacuum wavelength in µm.
+///
+/// # Errors
+///
+/// For the first number that is not finite or too large, and for an index of refraction that is
+/// nothing (0) or that has a negative part.
+pub(crate) fn check(node: &Node, lambda: f64) -> Result<(), ParamError> {
+    for (param, value) in node.class.parameters().zip(&node.values) {
+        let wrong = |problem: String| ParamError::new(param.name, problem);
+        match value {
+            Value::Number(x) if param.name == "lambda" => wavelength(*x).map_err(wrong)?,
+            Value::Number(x) => number(*x).map_err(wrong)?,
+            Value::Table(table) => points(table).map_err(wrong)?,
+            Value::Index(n) => index(n, lambda).map_err(wrong)?,
+            Value::Films(films) => {
+                for film in films {
+                    index(&film.index, lambda).map_err(wrong)?;
+                    number(film.thickness).map_err(wrong)?;
+                }
+            }
+            Value::Member(inner) => {
+                check(inner, lambda).map_err(|error| error.inside(param.name))?;
+            }
+            Value::Integer(_) | Value::Text(_) | Value::Formula(_) => {}
+        }
+    }
+    Ok(())
+}
+
+fn number(x: f64) -> Result<(), String> {
+    if x.abs() <= LARGEST {
+        return Ok(());
+    }
+    Err(format!("{x} is out of range: numbers go from -{LARGEST:e} to {LARGEST:e}"))
+}
+
+fn wavelength(x: f64) -> Result<(), String> {
+    if WAVELENGTHS.contains(&x) { Ok(()) } else { Err(format!("{x} um is not a wavelength")) }
+}
+
+fn points(table: &Table) -> Result<(), String> {
+    table.ordinates().try_for_each(number)?;
+    if table.can_interpolate() {
+        return Ok(());
+    }
+    Err("between its points the table has no numbers: abscissae have to be finite, and positive \
+         on a logarithmic axis, as values have to be if they go by their logarithm"
+        .into())
+}
+
+fn index(index: &Index, lambda: f64) -> Result<(), String> {
+    let Complex64 { re: n, im: k } = index.at(lambda);
+    if n.is_finite() && n >= 0.0 && k < 0.0 {
+        return Err(format!(
+            "k = {k} at {lambda} um: n + ik with k > 0 absorbs, write ({n},{})",
+            -k
+        ));
+    }
+    let fits = |x: f64| x == 0.0 || (LEAST_INDEX..=LARGEST_INDEX).contains(&x);
+    if fits(n) && (k < LEAST_INDEX || fits(k)) && n.max(k) >= LEAST_INDEX {
+        return Ok(());
+    }
+    Err(format!(
+        "({n},{k}) at {lambda} um is no index of refraction: n and k go from {LEAST_INDEX:e} to \
+         {LARGEST_INDEX:e}, and one of them may be 0"
+    ))
+}

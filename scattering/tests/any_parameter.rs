@@ -1,0 +1,184 @@
+//! Whatever its parameters are, a model is refused with the parameter's name or answers numbers.
+
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::Arc,
+};
+
+use scattering::{
+    Basis, Class, Family, Geometry, Kind, Mode, Node, Value, models,
+    optics::{Axis, Index, Rise, Table},
+    spec::is_below,
+    stack::Film,
+};
+
+/// Numbers without rhyme or reason, the same in every run (splitmix64).
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn one_of<T: Copy>(&mut self, all: &[T]) -> T {
+        all[(self.next() % all.len() as u64) as usize]
+    }
+
+    fn number(&mut self) -> f64 {
+        self.one_of(&[
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            0.0,
+            -0.0,
+            -1.0,
+            1e-300,
+            1e300,
+            -1e300,
+            f64::MAX,
+            f64::MIN_POSITIVE,
+            1e-3,
+            0.1,
+            0.5,
+            1.0,
+            1.5,
+            2.0,
+            30.0,
+            1e6,
+            -1e-9,
+        ])
+    }
+
+    fn integer(&mut self) -> i32 {
+        self.one_of(&[i32::MIN, -1000, -1, 0, 1, 2, 3, 7, 12, 1_000_000, i32::MAX])
+    }
+
+    fn index(&mut self) -> Index {
+        Index::constant(self.number(), self.number())
+    }
+
+    fn text(&mut self) -> &'static str {
+        self.one_of(&[
+            "",
+            "(",
+            "1 2 3",
+            "END",
+            "nan nan",
+            "0 0 0 0 0 0 0 0",
+            "VERTICES\nA (0,0)\n",
+            "\u{7f}\u{e9}",
+        ])
+    }
+
+    /// A value of the kind, or nothing to keep the default.
+    fn value(&mut self, kind: Kind, depth: usize) -> Option<Value> {
+        Some(match kind {
+            Kind::Number => Value::Number(self.number()),
+            Kind::Integer => Value::Integer(self.integer()),
+            Kind::Text | Kind::File => Value::Text(self.text().into()),
+            Kind::Formula => {
+                let value = self.number();
+                Value::Formula(Arc::new(move |x| value * x))
+            }
+            Kind::Index => Value::Index(self.index()),
+            Kind::Table => Value::Table(self.table()),
+            Kind::Films => Value::Films(
+                (0..self.next() % 3)
+                    .map(|_| Film { index: self.index(), thickness: self.number() })
+                    .collect(),
+            ),
+            Kind::Member(family, base) => {
+                let classes = family.classes();
+                let class = self.one_of(&classes);
+                if depth > 2 || !is_below(class.name, base) {
+                    return None;
+                }
+                Value::Member(self.node(class, depth + 1).into())
+            }
+        })
+    }
+
+    fn table(&mut self) -> Table {
+        if self.next().is_multiple_of(2) {
+            return Table::constant(self.number());
+        }
+        let rows: Vec<(f64, f64)> = (0..3).map(|_| (self.number(), self.number())).collect();
+        let axis = self.one_of(&[Axis::Linear, Axis::Log]);
+        let rise = self.one_of(&[Rise::Linear, Rise::Log, Rise::Spline, Rise::LogSpline]);
+        Table::points(&rows, axis, rise)
+    }
+
+    /// The class with some of its parameters changed.
+    fn node(&mut self, class: &'static Class, depth: usize) -> Node {
+        let mut node = Node::with_defaults(class, Mode::Sound);
+        let changed = 1 + self.next() % 3;
+        for _ in 0..changed {
+            let params: Vec<_> = class.parameters().collect();
+            if params.is_empty() {
+                break;
+            }
+            let param = self.one_of(&params);
+            if let Some(value) = self.value(param.kind, depth) {
+                node = node.with(param.name, value).unwrap();
+            }
+        }
+        node
+    }
+}
+
+const GEOMETRIES: [Geometry; 3] = [
+    Geometry { theta_i: 0.5, theta_s: 0.6, phi_s: 0.7, rotation: 0.1 },
+    Geometry { theta_i: 0.0, theta_s: 0.0, phi_s: 0.0, rotation: 0.0 },
+    Geometry { theta_i: 1.3, theta_s: 1.3, phi_s: 3.0, rotation: -2.0 },
+];
+
+/// What is wrong with the model that `node` describes.
+fn judge(node: &Node) -> Option<String> {
+    let outcome = catch_unwind(AssertUnwindSafe(|| match models::build(node) {
+        Err(error) if error.parameter.is_empty() => Some("names no parameter".to_owned()),
+        Err(_) => None,
+        Ok(model) => GEOMETRIES.iter().find_map(|at| {
+            let m = model.mueller(at, Basis::Psps);
+            let is_finite = m.0.iter().flatten().all(|x| x.is_finite());
+            (!is_finite).then(|| format!("{m:?} at {at:?}"))
+        }),
+    }));
+    outcome.unwrap_or_else(|_| Some("panics".to_owned()))
+}
+
+/// How many sets of parameters are tried: fewer where one of them may take a second.
+fn draws(class: &str) -> usize {
+    match class {
+        "CrossRCW_BRDF_Model" | "Polydisperse_Sphere_BRDF_Model" => 20,
+        _ => 200,
+    }
+}
+
+fn values(node: &Node) -> String {
+    let of = |(param, value): (&scattering::Param, &Value)| match value {
+        Value::Member(inner) => {
+            format!("{} = {} [{}]", param.name, inner.class.name, values(inner))
+        }
+        other => format!("{} = {other:?}", param.name),
+    };
+    node.class.parameters().zip(&node.values).map(of).collect::<Vec<_>>().join(", ")
+}
+
+#[test]
+fn no_parameter_makes_a_model_panic_or_answer_without_numbers() {
+    let mut dice = Dice(7);
+    let mut wrong = Vec::new();
+    for class in Family::Brdf.classes() {
+        for _ in 0..draws(class.name) {
+            let node = dice.node(class, 0);
+            if let Some(why) = judge(&node) {
+                wrong.push(format!("{}: {why}\n    {}", class.name, values(&node)));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} models:\n{}", wrong.len(), wrong.join("\n"));
+}
