@@ -413,3 +413,26 @@ fn what_has_no_meaning_is_refused_by_name() {
         assert_eq!(error.parameter, parameter, "{error}");
     }
 }
+#[test]
+fn anisotropic_layers_over_a_white_body_return_all_light_of_any_polarization() {
+    let anisotropic = |name| (name, "Anisotropic_Gaussian_Slope_Distribution_Function");
+    let one =
+        vec![anisotropic("layer1.sdf"), ("layer1.sdf.sigmax", "0.3"), ("layer1.sdf.sigmay", "0.1")];
+    let second = vec![
+        ("layers", "2"),
+        anisotropic("layer2.sdf"),
+        ("layer2.sdf.sigmax", "0.1"),
+        ("layer2.sdf.sigmay", "0.3"),
+        ("layer2.material", "(1.8,0)"),
+    ];
+    for params in [one.clone(), [one, second].concat()] {
+        let model = layered(&params);
+        for (theta, rotation) in [(0.0, 0.4), (0.3, 1.0), (0.7, 0.0), (1.2, 1.0)] {
+            let all = hemisphere(&model, theta, rotation, 100);
+            // The margin of the tables is 2·10⁻⁴ of what facets return.
+            let (least, most) = (2.0 * all[(0, 0)] - most(&all), most(&all));
+            assert!(least > 1.0 - 1e-4, "{params:?} {theta} {rotation}: {least}");
+            assert!(most < 1.0 + 1e-5, "{params:?} {theta} {rotation}: {most}");
+        }
+    }
+}

@@ -9,13 +9,13 @@
 //! is taken as diffuse light that reaches the body: p passes all layers, r is sent out by smooth
 //! interfaces, p_j is what passes the layers above the rough interface j, x_j what of its light
 //! gets out through them. Diffuse light from the body then comes out by 1 − ρ = ∫(p + m) sin 2θ
-//! dθ/n², as reciprocity has it, and over a white body nothing is lost. Intensity and Q are
-//! followed; absorption takes of m what it takes of a ray on its way down.
+//! dθ/n², as reciprocity has it, and over a white body nothing is lost. Absorption takes of m what
+//! it takes of a ray on its way down.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{
-    interface::Ray,
+    interface::{Ray, realizable},
     layered::{Above, Coat, Media},
     returned::{Returned, Safe},
 };
@@ -71,8 +71,9 @@ impl Closing {
         let mut missing = [1.0, 0.0, 0.0, 0.0];
         let mut left = 1.0;
         let mut lessen = |by: [f64; 4]| {
-            missing[0] -= by[0];
-            missing[1] -= by[1];
+            for (m, x) in missing.iter_mut().zip(by) {
+                *m -= x;
+            }
         };
         for (coat, seen) in coats.iter().zip(&self.seen) {
             if coat.interface.is_rough() {
@@ -90,8 +91,7 @@ impl Closing {
         lessen(above.mirrored.row());
         let passes = above.passes.row();
         lessen(passes);
-        let intensity = missing[0].max(0.0);
-        (passes, [intensity, missing[1].clamp(-intensity, intensity), 0.0, 0.0], left)
+        (passes, realizable(missing), left)
     }
 }
 

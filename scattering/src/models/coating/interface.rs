@@ -137,8 +137,8 @@ impl Interface {
 
     /// What the facets return of a ray, all of it.
     pub(super) fn returned(&self, ray: &Ray) -> [f64; 4] {
-        let [i, q, _, _] = self.crossing(ray).row;
-        [1.0 - i, -q, 0.0, 0.0]
+        let [i, q, u, v] = self.crossing(ray).row;
+        [1.0 - i, -q, -u, -v]
     }
 
     /// What the facets reflect; nothing if it is smooth.

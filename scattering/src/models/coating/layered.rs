@@ -16,8 +16,8 @@
 //! (`Lambertian_BRDF_Model`, or `Diffuse_Subsurface_BRDF_Model` with its own interface) gets the
 //! factor 1/(1 − ρR), ρ the part of diffuse light that all layers send back. What rough interfaces
 //! neither let pass nor send out counts as diffuse light that reaches the body ([`Closing`]).
-//! Without absorption coats over a white body therefore lose no light, whatever their roughness;
-//! of two anisotropic rough interfaces 2·10⁻³ more than came was found to return.
+//! Without absorption coats over a white body therefore lose no light, whatever their roughness and
+//! whatever the polarization of the light.
 //!
 //! `layer1` is the uppermost of `layers` layers. A layered model as `model` has its layers below
 //! these, so their number is not limited.
@@ -266,7 +266,7 @@ impl Coat {
     /// The layers down to this one for the ray `ray` above it, whose angle in it has the cosine
     /// `cos`; `sin` is that of the ray above.
     pub(super) fn add(&self, above: Above, ray: &Ray, cos: f64, media: Media) -> Above {
-        let crossing = self.interface.passage(ray);
+        let crossing = self.interface.crossing(ray).kept;
         let absorbed = self.left(cos, media);
         if self.interface.is_rough() {
             // What it reflects goes into other directions.
