@@ -32,8 +32,12 @@ END
 ";
 
 fn said(arguments: &[&str]) -> String {
+    said_of(PROGRAM, arguments)
+}
+
+fn said_of(program: &str, arguments: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("a.mist"), PROGRAM).unwrap();
+    fs::write(folder.path().join("a.mist"), program).unwrap();
     let mut command = Command::cargo_bin("mist").expect("the binary is built");
     command.current_dir(folder.path()).args(arguments);
     String::from_utf8(command.assert().code(0).get_output().stderr.clone()).unwrap()
@@ -51,4 +55,19 @@ fn a_sound_run_names_every_defect_that_it_meets() {
 #[test]
 fn a_compat_run_reproduces_them_in_silence() {
     assert!(!said(&["run", "--compat", "a.mist"]).contains("defect"));
+}
+
+#[test]
+fn a_run_says_where_a_coating_is_denser_than_its_model_holds() {
+    let coating = |density: &str| {
+        let model = "Pigmented_Coating_BRDF_Model";
+        let parameters = format!("#particle_density = {density}");
+        PROGRAM
+            .replace("Facet_BRDF_Model", model)
+            .replace("$sdf = Table_Angle_Distribution_Function", &parameters)
+            .replace("    $sdf.T = 1\n", "")
+    };
+    let said = |density| said_of(&coating(density), &["run", "a.mist"]);
+    assert!(said("30").contains("lower particle_density"), "{}", said("30"));
+    assert!(!said("3").contains("particle_density"), "{}", said("3"));
 }

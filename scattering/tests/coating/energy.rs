@@ -1,8 +1,5 @@
 //! Energy of random coatings and surfaces: no polarization comes back stronger than it came.
 //!
-//! `COATING_SETS=1000 cargo test --release -p scattering --test coating energy` asks a thousand
-//! coatings, the usual test a hundred.
-//!
 //! The integral over the hemisphere is a sum over Gauss nodes and azimuths, as fine as the slopes
 //! of at least 0.15 need: what it is off by is far below what coatings that absorb keep, and for
 //! the brightest the sum is repeated with twice the nodes.
@@ -13,11 +10,8 @@ use scattering::Model;
 
 use super::{build, hemisphere, most, pigmented};
 
-/// Surfaces; coatings with `COATING_SETS=1000`.
+/// Surfaces, and coatings.
 const SETS: usize = 1000;
-
-/// Coatings of the usual test: the tables of one take 0.02 to 0.3 s to build.
-const USUAL: usize = 100;
 
 /// What may come back of one.
 const ALL: f64 = 1.0 + 1e-6;
@@ -81,8 +75,7 @@ fn no_random_surface_returns_more_light_than_came() {
 
 #[test]
 fn no_random_coating_returns_more_light_than_came() {
-    let sets = std::env::var("COATING_SETS").map_or(USUAL, |text| text.parse().unwrap());
-    let wrong = across_threads(sets, |case| {
+    let wrong = across_threads(SETS, |case| {
         let mut random = Random(case as u64 + 7_000_001);
         for _ in 0..8 {
             random.between(0.0, 1.0);
