@@ -22,6 +22,8 @@ pub enum Limit {
     FlakesTooDense,
     /// Light that a coating loses between its flakes.
     LostBetweenFlakes,
+    /// A phase matrix gives light more polarization than intensity.
+    Unrealizable,
 }
 
 impl Limit {
@@ -39,6 +41,10 @@ impl Limit {
             Self::LostBetweenFlakes => {
                 "more than a twentieth of the light is lost between flakes: raise correlation or \
                  lower flake_density"
+            }
+            Self::Unrealizable => {
+                "scattered light has more polarization than intensity at some angles: lower plmax, \
+                 pcmax or s of the phase function"
             }
         }
     }

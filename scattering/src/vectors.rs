@@ -79,7 +79,7 @@ fn unit(v: DVec3) -> Option<DVec3> {
 pub fn geometry(side: Side, source: DVec3, viewer: DVec3) -> Option<(Incidence, Direction)> {
     let is_there = (source.z < 0.0) == side.from_below() && (viewer.z < 0.0) == side.to_below();
     is_there.then(|| {
-        let sin = source.x.hypot(source.y);
+        let sin = length(source.x, source.y);
         let e =
             if sin == 0.0 { -DVec3::X } else { DVec3::new(source.x / sin, source.y / sin, 0.0) };
         (incidence(e, sin, source.z.abs()), direction(e, viewer))
@@ -94,9 +94,14 @@ fn incidence(e: DVec3, sin: f64, cos: f64) -> Incidence {
 
 fn direction(e: DVec3, viewer: DVec3) -> Direction {
     let (x, y) = (-(viewer.x * e.x + viewer.y * e.y), viewer.x * e.y - viewer.y * e.x);
-    let (sin, cos) = (x.hypot(y), viewer.z.abs());
+    let (sin, cos) = (length(x, y), viewer.z.abs());
     let (sin_phi, cos_phi) = if sin == 0.0 { (0.0, 1.0) } else { (y / sin, x / sin) };
     Direction { theta: sin.atan2(cos), phi: sin_phi.atan2(cos_phi), sin, cos, sin_phi, cos_phi }
+}
+
+/// √(x² + y²) of numbers up to 1, whose squares need no care.
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// The same light as NIST's library describes it, or nothing where it divides by zero.

@@ -7,8 +7,9 @@
 //!    P_{32} = -P_{23} = p_c\frac{1-c_f^2}{1+c_f^2} $$
 //!
 //! p_l (`plmax`) and p_c (`pcmax`) are the greatest linear and circular polarizations, s skews the
-//! circular one. It is realizable where
-//! p_l² + p_c² ≤ 1 nearly; p_l = 1 with p_c = 0.4 is not.
+//! circular one. Light has no more polarization than intensity where
+//! P_10² + P_22² + P_32² ≤ P_00², which is p_l² + p_c² ≤ 1 without skew; elsewhere a build notes
+//! [`Limit::Unrealizable`].
 //!
 //! A. D. Code and B. A. Whitney, Astrophys. J. 441, 400 (1995).
 
@@ -16,7 +17,7 @@ use std::f64::consts::PI;
 
 use super::{PolarizedPhase, SCALAR, Scalar};
 use crate::{
-    Mueller,
+    Limit, Mueller,
     spec::{Class, Laws, Param, Spec},
 };
 
@@ -39,12 +40,16 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         laws: Laws::NONE,
     },
     build: |node| {
-        Ok(Box::new(CodeWhitney {
+        let phase = CodeWhitney {
             scalar: Scalar::read(node)?,
             linear: node.number("plmax"),
             circular: node.number("pcmax"),
             skew: node.number("s"),
-        }))
+        };
+        if !phase.is_realizable() {
+            node.passes(Limit::Unrealizable);
+        }
+        Ok(Box::new(phase))
     },
 };
 
@@ -75,6 +80,17 @@ impl PolarizedPhase for CodeWhitney {
 }
 
 impl CodeWhitney {
+    /// Whether no light gets more polarization than intensity, looked at every degree.
+    fn is_realizable(&self) -> bool {
+        (0..=180).all(|degree| {
+            let cos = f64::from(degree).to_radians().cos();
+            let linear = self.linear * polarization(cos);
+            let circular = self.circular * polarization(self.skewed(cos));
+            let rest = 2.0 * cos / (1.0 + cos * cos);
+            linear * linear + circular * circular + rest * rest <= 1.0 + 1e-12
+        })
+    }
+
     /// cos of the skewed angle.
     fn skewed(&self, cos: f64) -> f64 {
         if self.skew == 0.0 {
@@ -88,4 +104,30 @@ impl CodeWhitney {
 /// (1 − c²)/(1 + c²).
 fn polarization(c: f64) -> f64 {
     (1.0 - c * c) / (1.0 + c * c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Mode, Node, Value, spec};
+
+    #[test]
+    fn more_polarization_than_light_is_told() {
+        let told = |params: &[(&str, f64)]| {
+            let node = params
+                .iter()
+                .fold(Node::with_defaults(&SPEC.class, Mode::Sound), |node, (name, x)| {
+                    node.with(name, Value::Number(*x)).unwrap()
+                });
+            spec::build::<dyn PolarizedPhase>(&node).unwrap();
+            let met = node.met.lock().unwrap();
+            met.contains(&Limit::Unrealizable.into())
+        };
+        assert!(!told(&[]));
+        assert!(!told(&[("plmax", 0.8), ("pcmax", 0.6)]));
+        assert!(told(&[("pcmax", 0.4)]));
+        assert!(told(&[("plmax", -1.1)]));
+        // The skew moves circular polarization to where linear light has none to spare.
+        assert!(told(&[("plmax", 0.8), ("pcmax", 0.6), ("s", 1.0)]));
+    }
 }

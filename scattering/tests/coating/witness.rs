@@ -5,8 +5,7 @@
 //! it follows one reflection by facets, takes the light of flakes and body for diffuse after that,
 //! and refracts by a flat surface. `MODEL_ERROR` states it.
 //!
-//! `COATING_RAYS=500000 cargo test --release -p scattering --test coating witness -- --nocapture`
-//! walks 10⁷ rays, 500,000 per coating in the place of [`RAYS`], and lists what it finds.
+//! `cargo test --release -p scattering --test coating witness -- --nocapture` lists what it finds.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -25,8 +24,8 @@ use super::{
     walk::{Body, Coat, Random, Ray, Sheet, turned},
 };
 
-/// Rays per coating of the usual test.
-const RAYS: u64 = 40_000;
+/// Rays per coating: 10⁷ in all.
+const RAYS: u64 = 500_000;
 
 /// Error of the model in what comes back in all, over the light that came.
 const MODEL_ERROR: f64 = 0.02;
@@ -355,16 +354,15 @@ fn modelled(case: &Case) -> [[f64; 2]; 6] {
 
 #[test]
 fn random_walks_of_polarized_light_find_twenty_coatings_as_they_are_modelled() {
-    let rays = std::env::var("COATING_RAYS").map_or(RAYS, |text| text.parse().unwrap());
     let mut wrong = Vec::new();
     for (seed, case) in cases().iter().enumerate() {
-        let (walks, model) = (walked(case, seed as u64, rays), modelled(case));
+        let (walks, model) = (walked(case, seed as u64, RAYS), modelled(case));
         let all = model[0][0];
         for (slot, (sums, expected)) in walks.iter().zip(model).enumerate() {
             for kind in 0..2 {
-                let mean = sums[kind] / rays as f64;
-                let square = sums[2 + kind] / rays as f64;
-                let deviation = ((square - mean * mean).max(0.0) / rays as f64).sqrt();
+                let mean = sums[kind] / RAYS as f64;
+                let square = sums[2 + kind] / RAYS as f64;
+                let deviation = ((square - mean * mean).max(0.0) / RAYS as f64).sqrt();
                 let error = if slot == 0 { MODEL_ERROR } else { CONE_ERROR * all };
                 let off = mean - expected[kind];
                 println!(
