@@ -62,5 +62,35 @@ fn batches(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, batches);
+/// Every class with its defaults: many directions of one beam, and one direction of many beams.
+///
+/// The second counts what is done for each beam: a grating solves its equations.
+fn defaults(c: &mut Criterion) {
+    let all = directions();
+    let mut out = vec![Mueller::ZERO; BATCH];
+    let mut group = c.benchmark_group("defaults");
+    group.sample_size(10);
+    for spec in models::all() {
+        let Ok(model) = models::build(&class(spec.class.name)) else { continue };
+        group.bench_function(format!("{} per direction", spec.class.name), |b| {
+            let beam = Incidence::new(0.7, 0.2);
+            b.iter(|| {
+                model.evaluate(black_box(&beam), &all, Basis::Psps, &mut out);
+                black_box(&out);
+            });
+        });
+        let mut number = 0;
+        group.bench_function(format!("{} per beam", spec.class.name), |b| {
+            b.iter(|| {
+                number = (number + 1) % 900;
+                let beam = Incidence::new(0.1 + 0.001 * f64::from(number), 0.2);
+                model.evaluate(&beam, &all[..1], Basis::Psps, &mut out[..1]);
+                black_box(&out[0]);
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, batches, defaults);
 criterion_main!(benches);
