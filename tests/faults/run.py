@@ -68,7 +68,12 @@ def copied(folder):
 def built(folder):
     """Builds the tests; gives their programs with the folders they run in, in the order of PROGRAMS."""
     command = ["cargo", "test", "--workspace", "--release", "--locked", "--no-run", "--message-format", "json"]
-    lines = subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+    # Cargo takes copies of one project for the same: what it builds of this one stays apart.
+    target = Path(os.environ.get("CARGO_TARGET_DIR", PROJECT / "target")).resolve() / "faults"
+    environment = dict(os.environ, CARGO_TARGET_DIR=str(target))
+    lines = subprocess.run(
+        command, cwd=folder, env=environment, check=True, stdout=subprocess.PIPE, text=True
+    ).stdout.splitlines()
     made = [json.loads(line) for line in lines if line.startswith("{")]
     made = [m for m in made if m.get("profile", {}).get("test") and m.get("executable")]
     found = []
