@@ -105,7 +105,7 @@ fn lower_exponent(x: f64) -> i32 {
     ((exponent + 63) * 315_653) >> 20
 }
 
-/// 10^p is POWERS[p] 2^(this) with the upper bit of POWERS[p] set: floor(p log2 10) − 127.
+/// 10^p is `POWERS[p]` 2^(this) with the upper bit of `POWERS[p]` set: floor(p log2 10) − 127.
 const fn binary_exponent(p: i32) -> i32 {
     // Exact for |p| < 1650.
     ((p * 1_741_647) >> 19) - 127
