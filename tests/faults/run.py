@@ -124,7 +124,8 @@ def main():
             harmless = fault.get("changes_nothing")
             survived += seen is None and harmless is None
             answer = f"`{seen}`" if seen else f"changes nothing: {harmless}" if harmless else "**survives**"
-            print(f'| {number} | {fault["what"]} | {answer} |', flush=True)
+            what = fault["what"].replace("|", "\\|")
+            print(f"| {number} | {what} | {answer} |", flush=True)
         return 1 if survived else 0
 
 
