@@ -89,7 +89,7 @@ pub fn samples(
     (pol, inpol): (&Stokes, &Stokes),
     visit: &mut dyn FnMut(Sample),
 ) {
-    let below_horizon = incidence.theta.abs() >= std::f64::consts::FRAC_PI_2;
+    let below_horizon = !incidence.is_above();
     if layout.is_single_direction() && below_horizon {
         return;
     }
@@ -100,7 +100,7 @@ pub fn samples(
             model.evaluate(incidence, &chunk.directions, basis, &mut matrices);
             for ((m, d), weight) in matrices.iter().zip(&chunk.directions).zip(&chunk.weights) {
                 let brdf = turned(pol, weight, flip).dot(&(*m * *inpol));
-                visit(Sample { theta: d.theta, phi: d.phi, brdf });
+                visit(Sample { theta: d.theta(), phi: d.phi(), brdf });
             }
         });
     }

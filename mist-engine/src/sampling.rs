@@ -15,7 +15,6 @@ use crate::region::{Apertures, Frame, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
 
 pub mod adaptive;
-mod arc;
 mod key;
 mod pattern;
 mod projection;
@@ -251,7 +250,7 @@ impl Plan {
     fn chunk(&self, k: u64) -> Chunk {
         let mut chunk = Chunk::default();
         if let Inside::One(direction) = self.inside {
-            if direction.theta.abs() < FRAC_PI_2 {
+            if direction.is_above() {
                 chunk.push(direction, Weight { weight: direction.cos, cos2b: 1.0, sin2b: 0.0 });
             }
             return chunk;
@@ -289,7 +288,7 @@ impl Plan {
             return None;
         }
         let direction = seen(v);
-        let has_cosine = self.apertures == Apertures::Nist || direction.theta < FRAC_PI_2;
+        let has_cosine = self.apertures == Apertures::Nist || direction.is_above();
         has_cosine.then_some((direction, v, weight * v.z))
     }
 }
@@ -310,20 +309,10 @@ impl Chunk {
 fn seen(v: DVec3) -> Direction {
     let sin = ((1.0 - v.z) * (1.0 + v.z)).max(0.0).sqrt();
     let across = (v.x * v.x + v.y * v.y).sqrt();
-    if v.z < HORIZON || across < AXIS {
-        return by_angles(v, sin, across);
-    }
-    let (theta, phi) = (arc::angle(sin, v.z), arc::angle(v.y, v.x));
-    Direction { theta, phi, sin, cos: v.z, sin_phi: v.y / across, cos_phi: v.x / across }
-}
-
-/// [`seen`] next to the horizon and to the normal, where rounding decides.
-#[cold]
-fn by_angles(v: DVec3, sin: f64, across: f64) -> Direction {
-    let (theta, phi) = (v.z.acos(), v.y.atan2(v.x));
-    let (sin_phi, cos_phi) =
-        if across > 0.0 { (v.y / across, v.x / across) } else { phi.sin_cos() };
-    Direction { theta, phi, sin, cos: v.z, sin_phi, cos_phi }
+    // The normal has the azimuth that the signs of its zeros give it.
+    let azimuth =
+        if across > 0.0 { (v.y / across, v.x / across) } else { v.y.atan2(v.x).sin_cos() };
+    Direction::from_sin_cos((sin, v.z), azimuth)
 }
 
 /// x and y of a direction with the unit vector `v`.
@@ -336,9 +325,6 @@ fn projected(v: DVec3) -> DVec2 {
     }
     crate::region::unit((v.z.acos(), v.y.atan2(v.x))).truncate()
 }
-
-/// Closer to the horizon than this, rounding decides whether a direction lies above it.
-const HORIZON: f64 = 1e-9;
 
 /// Closer to an axis than this, rounding decides.
 const AXIS: f64 = 1e-12;

@@ -4,6 +4,8 @@
 //! the specular direction of an incident polar angle θ_i is (θ_s, φ_s) = (θ_i, 0), and
 //! retro-reflection is at φ_s = π.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::DVec3;
 
 use crate::{
@@ -61,17 +63,35 @@ impl Side {
     }
 }
 
+/// An angle (radians) that most formulas need only by its sine and cosine: the number that was
+/// given, or NaN where it follows from those two.
+#[derive(Clone, Copy, Debug)]
+struct Angle(f64);
+
+impl Angle {
+    const FOLLOWS: Self = Self(f64::NAN);
+
+    fn radians(self, sin: f64, cos: f64) -> f64 {
+        if self.0.is_nan() { sin.atan2(cos) } else { self.0 }
+    }
+
+    /// Whether it is less than π/2 from the normal.
+    fn is_above(self, cos: f64) -> bool {
+        // The largest cosine whose angle rounds to π/2.
+        const HORIZON: f64 = 1.722_546_424_198_833e-16;
+        if self.0.is_nan() { cos > HORIZON } else { self.0.abs() < FRAC_PI_2 }
+    }
+}
+
 /// An incident beam and the orientation of the sample: what a batch of directions shares.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Incidence {
-    /// Polar angle of incidence, radians.
-    pub theta: f64,
+    theta: Angle,
     /// sin θ_i.
     pub sin: f64,
     /// cos θ_i.
     pub cos: f64,
-    /// Sample rotation, radians.
-    pub rotation: f64,
+    rotation: Angle,
     /// sin of the rotation.
     pub sin_rotation: f64,
     /// cos of the rotation.
@@ -83,7 +103,35 @@ impl Incidence {
     pub fn new(theta: f64, rotation: f64) -> Self {
         let (sin, cos) = theta.sin_cos();
         let (sin_rotation, cos_rotation) = rotation.sin_cos();
+        let (theta, rotation) = (Angle(theta), Angle(rotation));
         Self { theta, sin, cos, rotation, sin_rotation, cos_rotation }
+    }
+
+    /// The beam whose polar angle and rotation have these sines and cosines.
+    pub fn from_sin_cos(theta: (f64, f64), rotation: (f64, f64)) -> Self {
+        let ((sin, cos), (sin_rotation, cos_rotation)) = (theta, rotation);
+        let follows = Angle::FOLLOWS;
+        Self { theta: follows, sin, cos, rotation: follows, sin_rotation, cos_rotation }
+    }
+
+    /// The beam on the same sample whose polar angle has this sine and cosine.
+    pub(crate) fn inclined(&self, (sin, cos): (f64, f64)) -> Self {
+        Self { theta: Angle::FOLLOWS, sin, cos, ..*self }
+    }
+
+    /// Polar angle of incidence, radians.
+    pub fn theta(&self) -> f64 {
+        self.theta.radians(self.sin, self.cos)
+    }
+
+    /// Sample rotation, radians.
+    pub fn rotation(&self) -> f64 {
+        self.rotation.radians(self.sin_rotation, self.cos_rotation)
+    }
+
+    /// Whether the polar angle is less than π/2.
+    pub fn is_above(&self) -> bool {
+        self.theta.is_above(self.cos)
     }
 
     /// Propagation vector of type 0 light, (sin θ, 0, −cos θ).
@@ -106,12 +154,10 @@ impl Incidence {
 }
 
 /// A direction of scattering with the sines and cosines that every model needs.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Direction {
-    /// Polar angle, radians; may be negative.
-    pub theta: f64,
-    /// Azimuth, radians.
-    pub phi: f64,
+    theta: Angle,
+    phi: Angle,
     /// sin θ_s.
     pub sin: f64,
     /// cos θ_s.
@@ -127,7 +173,33 @@ impl Direction {
     pub fn new(theta: f64, phi: f64) -> Self {
         let (sin, cos) = theta.sin_cos();
         let (sin_phi, cos_phi) = phi.sin_cos();
-        Self { theta, phi, sin, cos, sin_phi, cos_phi }
+        Self { theta: Angle(theta), phi: Angle(phi), sin, cos, sin_phi, cos_phi }
+    }
+
+    /// The direction whose polar angle and azimuth have these sines and cosines.
+    pub fn from_sin_cos(theta: (f64, f64), phi: (f64, f64)) -> Self {
+        let ((sin, cos), (sin_phi, cos_phi)) = (theta, phi);
+        Self { theta: Angle::FOLLOWS, phi: Angle::FOLLOWS, sin, cos, sin_phi, cos_phi }
+    }
+
+    /// The direction of the same azimuth whose polar angle has this sine and cosine.
+    pub(crate) fn inclined(&self, (sin, cos): (f64, f64)) -> Self {
+        Self { theta: Angle::FOLLOWS, sin, cos, ..*self }
+    }
+
+    /// Polar angle, radians; may be negative.
+    pub fn theta(&self) -> f64 {
+        self.theta.radians(self.sin, self.cos)
+    }
+
+    /// Azimuth, radians.
+    pub fn phi(&self) -> f64 {
+        self.phi.radians(self.sin_phi, self.cos_phi)
+    }
+
+    /// Whether the polar angle is less than π/2 on either side of the normal.
+    pub fn is_above(&self) -> bool {
+        self.theta.is_above(self.cos)
     }
 
     /// Propagation vector of type 0 light, (sin θ cos φ, sin θ sin φ, cos θ).
@@ -181,4 +253,25 @@ pub fn propagation(side: Side, incidence: &Incidence, direction: &Direction) -> 
         k_s.z = -k_s.z;
     }
     (k_i, k_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_that_follow_from_sines_and_cosines_are_above_where_they_round_below_half_pi() {
+        for k in 0..200 {
+            let cos = 1e-18 * f64::from(k * k);
+            let to = Direction::from_sin_cos((1.0, cos), (0.0, 1.0));
+            assert_eq!(to.is_above(), to.theta() < FRAC_PI_2, "{cos:e}");
+        }
+    }
+
+    #[test]
+    fn angles_that_were_given_are_kept_beyond_a_turn() {
+        let to = Direction::new(7.0, -9.0);
+        assert_eq!((to.theta(), to.phi(), to.is_above()), (7.0, -9.0, false));
+        assert!(!Direction::new(f64::NAN, 0.0).is_above());
+    }
 }

@@ -219,7 +219,7 @@ impl Model {
 
     /// Cones with sharp rims into which light of one beam goes; none at and below the horizon.
     pub fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
-        if is_above(incidence.theta) { self.brdf.spots(incidence) } else { Vec::new() }
+        if incidence.is_above() { self.brdf.spots(incidence) } else { Vec::new() }
     }
 
     /// Mueller BRDF (1/sr) for one geometry; zero at and below the horizon of either beam.
@@ -242,16 +242,15 @@ impl Model {
         out: &mut [Mueller],
     ) {
         assert_eq!(directions.len(), out.len(), "one matrix per direction");
-        if !is_above(incidence.theta) {
+        if !incidence.is_above() {
             out.fill(Mueller::ZERO);
             return;
         }
-        if directions.iter().all(|d| is_above(d.theta)) {
+        if directions.iter().all(Direction::is_above) {
             self.brdf.mueller_batch(incidence, directions, out);
         } else {
             for (m, d) in out.iter_mut().zip(directions) {
-                *m =
-                    if is_above(d.theta) { self.brdf.mueller(incidence, d) } else { Mueller::ZERO };
+                *m = if d.is_above() { self.brdf.mueller(incidence, d) } else { Mueller::ZERO };
             }
         }
         self.convert(incidence, directions, basis, out);
@@ -267,8 +266,4 @@ impl Model {
             *m = change_basis(*m, from, to, &beams(side, inc, d, self.mode));
         }
     }
-}
-
-fn is_above(theta: f64) -> bool {
-    theta.abs() < std::f64::consts::FRAC_PI_2
 }

@@ -88,15 +88,14 @@ pub fn geometry(side: Side, source: DVec3, viewer: DVec3) -> Option<(Incidence, 
 
 fn incidence(e: DVec3, sin: f64, cos: f64) -> Incidence {
     let (sin_rotation, cos_rotation) = (e.y, -e.x);
-    let rotation = sin_rotation.atan2(cos_rotation);
-    Incidence { theta: sin.atan2(cos), sin, cos, rotation, sin_rotation, cos_rotation }
+    Incidence::from_sin_cos((sin, cos), (sin_rotation, cos_rotation))
 }
 
 fn direction(e: DVec3, viewer: DVec3) -> Direction {
     let (x, y) = (-(viewer.x * e.x + viewer.y * e.y), viewer.x * e.y - viewer.y * e.x);
     let (sin, cos) = (length(x, y), viewer.z.abs());
     let (sin_phi, cos_phi) = if sin == 0.0 { (0.0, 1.0) } else { (y / sin, x / sin) };
-    Direction { theta: sin.atan2(cos), phi: sin_phi.atan2(cos_phi), sin, cos, sin_phi, cos_phi }
+    Direction::from_sin_cos((sin, cos), (sin_phi, cos_phi))
 }
 
 /// √(x² + y²) of numbers up to 1, whose squares need no care.
@@ -107,10 +106,12 @@ fn length(x: f64, y: f64) -> f64 {
 /// The same light as NIST's library describes it, or nothing where it divides by zero.
 fn nists(incidence: &Incidence, direction: &Direction) -> Option<(Incidence, Direction)> {
     // Its rotation is π away: x̂ is measured from e.
-    let (sin_rotation, cos_rotation) = (-incidence.sin_rotation, -incidence.cos_rotation);
-    let rotation = sin_rotation.atan2(cos_rotation);
-    let turned = Incidence { rotation, sin_rotation, cos_rotation, ..*incidence };
-    let mirrored = Direction { phi: -direction.phi, sin_phi: -direction.sin_phi, ..*direction };
+    let rotation = (-incidence.sin_rotation, -incidence.cos_rotation);
+    let turned = Incidence::from_sin_cos((incidence.sin, incidence.cos), rotation);
+    let mirrored = Direction::from_sin_cos(
+        (direction.sin, direction.cos),
+        (-direction.sin_phi, direction.cos_phi),
+    );
     (incidence.sin != 0.0).then_some((turned, mirrored))
 }
 

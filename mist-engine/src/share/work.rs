@@ -1,6 +1,6 @@
 //! The evaluation of a block of steps: unique pieces of work, done in parallel.
 
-use std::{collections::BTreeSet, f64::consts::FRAC_PI_2, fmt::Write as _, sync::Arc};
+use std::{collections::BTreeSet, fmt::Write as _, sync::Arc};
 
 use mist_format::{Diagnostic, number::general};
 use rayon::prelude::*;
@@ -393,15 +393,15 @@ impl Work {
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<(Found, u64), Undone> {
         let exact = |matrix| (Found { matrix, error: None }, 0);
-        let below = |theta: f64| theta.abs() >= FRAC_PI_2;
         let built = || self.cell.get().map_err(|error| Undone::Parameter(error.clone()));
         match &self.place {
-            // NIST's program does not ask the model here either, so its errors do not matter.
-            Place::Point(theta, _) if below(self.incidence.theta) || below(*theta) => {
-                Ok(exact(Mueller::ZERO))
-            }
             Place::Point(theta, phi) => {
                 let direction = Direction::new(*theta, *phi);
+                if !(self.incidence.is_above() && direction.is_above()) {
+                    // NIST's program does not ask the model here either, so its errors do not
+                    // matter.
+                    return Ok(exact(Mueller::ZERO));
+                }
                 let mut out = [Mueller::ZERO];
                 built()?.model.evaluate(&self.incidence, &[direction], basis, &mut out);
                 Ok(exact(out[0] * direction.cos))

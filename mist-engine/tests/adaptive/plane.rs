@@ -264,10 +264,7 @@ pub(crate) fn integral(
 fn value(model: &Model, incidence: &Incidence, xy: DVec2) -> Mueller {
     let v = lifted(xy);
     let sin = xy.length();
-    let theta = sin.atan2(v.z);
-    let phi = xy.y.atan2(xy.x);
-    let (sin_phi, cos_phi) = phi.sin_cos();
-    let direction = Direction { theta, phi, sin, cos: v.z, sin_phi, cos_phi };
+    let direction = Direction::from_sin_cos((sin, v.z), xy.y.atan2(xy.x).sin_cos());
     let mut out = [Mueller::ZERO];
     model.evaluate(incidence, &[direction], Basis::Psps, &mut out);
     out[0]

@@ -149,7 +149,7 @@ impl Shadow for Sancer {
 fn azimuth_between(incidence: &Incidence, direction: &Direction) -> f64 {
     // The source stands at azimuth π; a negative polar angle is a positive one on the other side.
     let turned = if incidence.sin * direction.sin < 0.0 { 0.0 } else { PI };
-    let delta = (direction.phi - turned).abs() % TAU;
+    let delta = (direction.phi() - turned).abs() % TAU;
     delta.min(TAU - delta)
 }
 

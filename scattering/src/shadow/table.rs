@@ -31,6 +31,6 @@ struct TableShadow {
 
 impl Shadow for TableShadow {
     fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64 {
-        self.table.at(incidence.theta) * self.table.at(direction.theta)
+        self.table.at(incidence.theta()) * self.table.at(direction.theta())
     }
 }

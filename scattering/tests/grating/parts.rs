@@ -46,7 +46,7 @@ pub(crate) fn direction(x: f64, y: f64) -> Direction {
 
 /// BRDF times cos θ_s: what NIST calls a differential integral is its product with two vectors.
 pub(crate) fn projected(model: &Model, theta_i: f64, rotation: f64, to: &Direction) -> Mueller {
-    let at = Geometry { theta_i, theta_s: to.theta, phi_s: to.phi, rotation };
+    let at = Geometry { theta_i, theta_s: to.theta(), phi_s: to.phi(), rotation };
     model.mueller(&at, Basis::Psps) * to.cos
 }
 

@@ -62,7 +62,7 @@ impl<'a> Integrand<'a> {
     /// or a smooth face refracts it, and back to the source. Models that end behind a second face
     /// have their angles outside of it.
     pub(super) fn gathering(&self) -> Vec<DVec3> {
-        let (common, theta) = (self.model.common(), self.incidence.theta);
+        let (common, theta) = (self.model.common(), self.incidence.theta());
         let refracted = |sin: f64| unit((sin.clamp(-1.0, 1.0).asin(), 0.0));
         let (sin, n) = (self.incidence.sin, common.substrate.re);
         let straight = unit((theta, 0.0));

@@ -78,12 +78,12 @@ impl Ray {
 
     /// It as an incident beam on the sample of `at`.
     pub(super) fn incidence(&self, at: &Incidence) -> Incidence {
-        Incidence { theta: self.sin.min(1.0).asin(), sin: self.sin, cos: self.cos, ..*at }
+        at.inclined((self.sin, self.cos))
     }
 
     /// It as an exit along the azimuth of `direction`.
     pub(super) fn direction(&self, direction: &Direction) -> Direction {
-        Direction { theta: self.sin.min(1.0).asin(), sin: self.sin, cos: self.cos, ..*direction }
+        direction.inclined((self.sin, self.cos))
     }
 }
 

@@ -324,7 +324,6 @@ fn reflected(at: &Incidence, x: f64, y: f64) -> Option<(Direction, f64)> {
     }
     let sin = kx.hypot(ky);
     let (cos_phi, sin_phi) = if sin > 0.0 { (kx / sin, ky / sin) } else { (1.0, 0.0) };
-    let direction =
-        Direction { theta: sin.atan2(kz), phi: ky.atan2(kx), sin, cos: kz, sin_phi, cos_phi };
+    let direction = Direction::from_sin_cos((sin, kz), (sin_phi, cos_phi));
     Some((direction, kz * 4.0 * c * nz * nz * nz))
 }

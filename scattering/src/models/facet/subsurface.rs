@@ -107,18 +107,8 @@ impl SubsurfaceFacet {
     pub(super) fn inside(&self, incidence: &Incidence, direction: &Direction) -> Inside {
         let (sin_i, sin_s) = (incidence.sin / self.coat, direction.sin / self.coat);
         Inside {
-            incidence: Incidence {
-                theta: sin_i.asin(),
-                sin: sin_i,
-                cos: (1.0 - sin_i * sin_i).sqrt(),
-                ..*incidence
-            },
-            direction: Direction {
-                theta: sin_s.asin(),
-                sin: sin_s,
-                cos: (1.0 - sin_s * sin_s).sqrt(),
-                ..*direction
-            },
+            incidence: incidence.inclined((sin_i, (1.0 - sin_i * sin_i).sqrt())),
+            direction: direction.inclined((sin_s, (1.0 - sin_s * sin_s).sqrt())),
         }
     }
 

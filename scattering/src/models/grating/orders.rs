@@ -106,7 +106,7 @@ impl ConeModel {
     fn orders(&self, incidence: &Incidence) -> Orders {
         // A panic while the list was locked leaves a usable list.
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        let (theta, rotation) = (incidence.theta, incidence.rotation);
+        let (theta, rotation) = (incidence.theta(), incidence.rotation());
         if let Some(known) = recent.iter().find(|r| r.theta == theta && r.rotation == rotation) {
             return known.orders.clone();
         }

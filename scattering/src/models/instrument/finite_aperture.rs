@@ -62,7 +62,7 @@ impl FiniteAperture {
         let sign = if self.common.side.to_below() { 1.0 } else { -1.0 };
         let mut sum = Mueller::ZERO;
         for ((node, point), m) in work.directions.iter().zip(&self.points).zip(&work.matrices) {
-            sum += disk::turn_output(*m, sign * node.phi) * (point.weight * node.cos);
+            sum += disk::turn_output(*m, sign * node.phi()) * (point.weight * node.cos);
         }
         sum * (1.0 / direction.cos)
     }

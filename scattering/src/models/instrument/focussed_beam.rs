@@ -123,7 +123,7 @@ impl Brdf for FocussedBeam {
         out.fill(Mueller::ZERO);
         let source = Beam::new(incidence.sin, incidence.cos, 0.0, -1.0);
         for point in &self.points {
-            let ray = self.ray(&source, incidence.rotation, point);
+            let ray = self.ray(&source, incidence.rotation(), point);
             for (m, d) in out.iter_mut().zip(directions) {
                 let viewer = Beam::new(d.sin, d.cos, d.sin_phi, d.cos_phi);
                 self.add(&ray, &viewer, incidence.cos * d.cos, m);

@@ -174,10 +174,10 @@ impl Brdf for Zernike {
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
         let mut source = vec![0.0; self.harmonics.len()];
         let mut viewer = source.clone();
-        self.harmonics.evaluate(incidence.theta, PI - incidence.rotation, &mut source);
+        self.harmonics.evaluate(incidence.theta(), PI - incidence.rotation(), &mut source);
         for (m, direction) in out.iter_mut().zip(directions) {
-            let azimuth = direction.phi - incidence.rotation;
-            self.harmonics.evaluate(direction.theta, azimuth, &mut viewer);
+            let azimuth = direction.phi() - incidence.rotation();
+            self.harmonics.evaluate(direction.theta(), azimuth, &mut viewer);
             *m = self.sum(&source, &viewer);
         }
     }

@@ -244,7 +244,7 @@ pub(super) fn nudged(
 ) -> (Incidence, Direction) {
     const NEAR: f64 = 1e-5;
     const STEP: f64 = 2.5e-5;
-    let (mut theta_i, mut theta_s) = (incidence.theta, direction.theta);
+    let (mut theta_i, mut theta_s) = (incidence.theta(), direction.theta());
     for sign in [-1.0, 1.0] {
         if (theta_i.sin() + sign * theta_s.sin() * direction.cos_phi).abs() < NEAR {
             theta_i += STEP;
@@ -256,5 +256,5 @@ pub(super) fn nudged(
     if normal && theta_s.abs() < NEAR {
         theta_s = NEAR;
     }
-    (Incidence::new(theta_i, incidence.rotation), Direction::new(theta_s, direction.phi))
+    (Incidence::new(theta_i, incidence.rotation()), Direction::new(theta_s, direction.phi()))
 }

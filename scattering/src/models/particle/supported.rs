@@ -181,7 +181,7 @@ impl Supported {
 
     fn excited(&self, incidence: &Incidence) -> Outgoing {
         let below = self.ground.side.from_below();
-        let (sin, cos) = self.ground.angle(incidence.theta, incidence.sin, incidence.cos);
+        let (sin, cos) = self.ground.angle(incidence.theta(), incidence.sin, incidence.cos);
         let beam = if below {
             let (cos, t) = self.ground.through(sin, cos, self.height);
             let factor = self.ground.n.sqrt().recip();
@@ -205,7 +205,7 @@ impl Supported {
 
     fn amplitude(&self, excited: &Outgoing, incidence: &Incidence, direction: &Direction) -> Jones {
         let ground = &self.ground;
-        let (sin, cos) = ground.angle(direction.theta, direction.sin, direction.cos);
+        let (sin, cos) = ground.angle(direction.theta(), direction.sin, direction.cos);
         let beam = if ground.side.to_below() {
             let (inside, t) = ground.through(sin, cos, self.height);
             let direct = times(t, ground.n.sqrt().into());
@@ -215,7 +215,7 @@ impl Supported {
             Beam { mirrored, ..Beam::free(-cos, sin) }
         };
         // A negative polar angle stands for the azimuth on the other side.
-        let side = if (direction.theta < 0.0) != (incidence.theta < 0.0) { -1.0 } else { 1.0 };
+        let side = if (direction.sin < 0.0) != (incidence.sin < 0.0) { -1.0 } else { 1.0 };
         let azimuth = (side * direction.cos_phi, side * direction.sin_phi);
         let area = ground.density / (incidence.cos * direction.cos).abs();
         let j = excited.amplitude(&self.outgoing, &beam, azimuth).scaled(area.sqrt() / ground.k);

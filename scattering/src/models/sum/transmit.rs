@@ -87,7 +87,7 @@ impl Transmit {
             .iter()
             .map(|d| {
                 let (theta, tau) = self.cross(d.sin, d.cos);
-                (Direction::new(theta, d.phi), tau)
+                (Direction::new(theta, d.phi()), tau)
             })
             .unzip()
     }
@@ -100,7 +100,7 @@ impl Transmit {
             return (*incidence, None);
         }
         let (theta, tau) = self.cross(incidence.sin, incidence.cos);
-        (Incidence::new(theta, incidence.rotation), Some(tau))
+        (Incidence::new(theta, incidence.rotation()), Some(tau))
     }
 
     /// A cone inside as it is seen outside, where its rim is no circle any more; none if it is
