@@ -61,9 +61,6 @@ export const check = async (request, signal) =>
 export const start = async (request) =>
   (await (await ask("v1/jobs", posted(request))).json()).id;
 
-/** The state of a job. */
-export const job = async (id) => (await ask(`v1/jobs/${id}`)).json();
-
 /** Stops a job. */
 export const stop = (id) => ask(`v1/jobs/${id}`, { method: "DELETE" });
 
@@ -72,12 +69,22 @@ export const jobText = async (id, what) => (await ask(`v1/jobs/${id}/${what}`)).
 
 /** Calls `told` with every state of the job until it has ended; the last state. */
 export async function follow(id, told) {
+  const response = await ask(`v1/jobs/${id}/events`);
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  let state = null;
   for (;;) {
-    const state = await job(id);
-    told(state);
-    if (!["queued", "running"].includes(state.state)) return state;
-    await new Promise((done) => setTimeout(done, 250));
+    const { done, value } = await reader.read().catch(() => ({ done: true }));
+    if (done) break;
+    const events = (text + value).split("\n\n");
+    text = events.pop();
+    for (const event of events) {
+      const data = event.split("\n").find((line) => line.startsWith("data:"));
+      if (data) told((state = JSON.parse(data.slice("data:".length))));
+    }
   }
+  if (state && !["queued", "running"].includes(state.state)) return state;
+  throw new Problem(0, { message: "the service went away while the job ran" });
 }
 
 /** Colours of a material at text rows `thetai thetas phis point`: the table as JSON. */

@@ -4,27 +4,25 @@
 //! texts when it is over. A service that starts takes up the jobs that were not over, in the
 //! order in which they came.
 
+mod desk;
+mod job;
 mod ledger;
 mod run;
 mod sink;
 mod status;
 
+pub(crate) use job::Job;
 pub(crate) use sink::MeasuredSink;
 pub(crate) use status::{State, Status};
 
-use std::{
-    collections::{BTreeMap, VecDeque},
-    sync::{
-        Arc, Condvar, Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicBool, AtomicU64, Ordering},
-    },
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, atomic::Ordering};
+
+use self::{
+    desk::Desk,
+    job::{Record, json},
 };
-
-use serde::{Deserialize, Serialize};
-use tokio::sync::watch;
-
 use crate::{
-    http::{ApiError, Limit, ProgramBody},
+    http::{ApiError, ProgramBody},
     keys::hexadecimal,
     limits::ServeLimits,
     store::{Store, StoreError},
@@ -46,87 +44,6 @@ struct Office {
     bell: Condvar,
 }
 
-#[derive(Default)]
-struct Desk {
-    jobs: BTreeMap<String, Arc<Job>>,
-    queue: VecDeque<Arc<Job>>,
-    /// Jobs that are over, the oldest first.
-    over: VecDeque<String>,
-    /// Bytes of the programs and texts of all jobs.
-    stored: u64,
-    next: u64,
-    stopping: bool,
-    workers: usize,
-}
-
-/// One job.
-pub(crate) struct Job {
-    /// Its name in addresses.
-    pub(crate) id: String,
-    number: u64,
-    client: String,
-    /// Bytes of its program and of its texts.
-    bytes: AtomicU64,
-    cancel: Arc<AtomicBool>,
-    status: watch::Sender<Status>,
-    /// The texts as far as they are, while it runs.
-    live: Mutex<MeasuredSink>,
-}
-
-/// What is kept of a job.
-#[derive(Deserialize, Serialize)]
-struct Record {
-    number: u64,
-    client: String,
-    #[serde(default)]
-    bytes: u64,
-    status: Status,
-}
-
-impl Job {
-    fn new(record: Record) -> Self {
-        Self {
-            id: record.status.id.clone(),
-            number: record.number,
-            client: record.client,
-            bytes: AtomicU64::new(record.bytes),
-            cancel: Arc::default(),
-            status: watch::channel(record.status).0,
-            live: Mutex::default(),
-        }
-    }
-
-    /// Where it stands.
-    pub(crate) fn status(&self) -> Status {
-        self.status.borrow().clone()
-    }
-
-    /// Where it stands, and every change.
-    pub(crate) fn watch(&self) -> watch::Receiver<Status> {
-        self.status.subscribe()
-    }
-
-    /// The results as far as they are.
-    pub(crate) fn results_so_far(&self) -> String {
-        self.live.lock().unwrap_or_else(PoisonError::into_inner).results.clone()
-    }
-
-    /// What is kept of it when it stands at `status`.
-    fn record(&self, status: Status) -> String {
-        let record = Record {
-            number: self.number,
-            client: self.client.clone(),
-            bytes: self.bytes.load(Ordering::Relaxed),
-            status,
-        };
-        json(&record)
-    }
-}
-
-fn json(what: &impl Serialize) -> String {
-    serde_json::to_string(what).expect("texts and numbers have a JSON form")
-}
-
 impl Jobs {
     /// The jobs in `store`; those that were not over wait again.
     ///
@@ -143,20 +60,8 @@ impl Jobs {
             }
         }
         records.sort_by_key(|record| record.number);
-        for mut record in records {
-            desk.next = record.number + 1;
-            desk.stored += record.bytes;
-            let over = record.status.state.is_over();
-            if !over {
-                record.status.state = State::Queued;
-            }
-            let job = Arc::new(Job::new(record));
-            desk.jobs.insert(job.id.clone(), job.clone());
-            if over {
-                desk.over.push_back(job.id.clone());
-            } else {
-                desk.queue.push_back(job);
-            }
+        for record in records {
+            desk.take_up(record);
         }
         let desk = Mutex::new(desk);
         Ok(Self(Arc::new(Office { store, limits, desk, bell: Condvar::new() })))
@@ -195,15 +100,9 @@ impl Jobs {
         let bytes = program.len() as u64;
         let job = {
             let mut desk = self.desk();
-            self.admit_to(&desk, &client)?;
+            desk.admit(&self.0.limits, &client)?;
             let status = Status::new(hexadecimal(&id), body.job.clone());
-            let record = Record { number: desk.next, client, bytes, status };
-            desk.next += 1;
-            desk.stored += bytes;
-            let job = Arc::new(Job::new(record));
-            // It counts from now on, but waits until it is kept.
-            desk.jobs.insert(job.id.clone(), job.clone());
-            job
+            desk.enter(client, bytes, status)
         };
         if let Err(error) = self.0.store.put_job(&job.id, &job.record(job.status()), &program) {
             self.desk().remove(&job.id);
@@ -220,31 +119,7 @@ impl Jobs {
     ///
     /// If too many wait.
     pub(crate) fn admit(&self, client: &str) -> Result<(), ApiError> {
-        self.admit_to(&self.desk(), client)
-    }
-
-    fn admit_to(&self, desk: &Desk, client: &str) -> Result<(), ApiError> {
-        if desk.stopping {
-            return Err(ApiError::Unavailable("the service is stopping".into()));
-        }
-        let limits = &self.0.limits;
-        if desk.queue.len() >= limits.max_queued {
-            let message = "too many jobs wait".into();
-            let value = limits.max_queued as f64;
-            return Err(ApiError::TooMany(Limit { flag: "max-queued", value, message }));
-        }
-        if desk.over.is_empty() && desk.stored >= limits.max_stored {
-            let message = "the jobs that wait or run fill the store".into();
-            let value = limits.max_stored as f64;
-            return Err(ApiError::TooMany(Limit { flag: "max-stored", value, message }));
-        }
-        let open = desk.jobs.values().filter(|job| !job.status.borrow().state.is_over());
-        if open.filter(|job| job.client == client).count() >= limits.max_client_jobs {
-            let message = "this client has too many jobs that wait or run".into();
-            let value = limits.max_client_jobs as f64;
-            return Err(ApiError::TooMany(Limit { flag: "max-client-jobs", value, message }));
-        }
-        Ok(())
+        self.desk().admit(&self.0.limits, client)
     }
 
     /// The job with this id.
@@ -282,18 +157,11 @@ impl Jobs {
     pub(crate) fn cancel(&self, job: &Arc<Job>) -> Result<Status, ApiError> {
         if job.status().state.is_over() {
             self.0.store.remove_job(&job.id)?;
-            let mut desk = self.desk();
-            desk.remove(&job.id);
-            desk.over.retain(|id| *id != job.id);
+            self.desk().remove(&job.id);
             return Ok(job.status());
         }
         job.cancel.store(true, Ordering::Relaxed);
-        let waited = {
-            let mut desk = self.desk();
-            let before = desk.queue.len();
-            desk.queue.retain(|other| other.id != job.id);
-            desk.queue.len() < before
-        };
+        let waited = self.desk().unqueue(&job.id);
         if waited {
             self.0.finish(job, State::Cancelled, |_| (), &[]);
             self.0.over(job);
@@ -375,31 +243,11 @@ impl Office {
         if !job.status.borrow().state.is_over() {
             return;
         }
-        let mut forgotten = Vec::new();
-        let mut desk = self.desk();
-        desk.over.push_back(job.id.clone());
-        let limits = &self.limits;
-        while desk.over.len() > limits.max_finished
-            || (desk.stored > limits.max_stored && desk.over.len() > 1)
-        {
-            let Some(id) = desk.over.pop_front() else { break };
-            desk.remove(&id);
-            forgotten.push(id);
-        }
-        drop(desk);
+        let forgotten = self.desk().retire(&self.limits, &job.id);
         for id in forgotten {
             if let Err(error) = self.store.remove_job(&id) {
                 tracing::warn!(id, %error, "an old job cannot be forgotten");
             }
-        }
-    }
-}
-
-impl Desk {
-    /// Forgets a job and what it occupies.
-    fn remove(&mut self, id: &str) {
-        if let Some(job) = self.jobs.remove(id) {
-            self.stored -= job.bytes.load(Ordering::Relaxed);
         }
     }
 }
