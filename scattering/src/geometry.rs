@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use crate::{
     Mode,
+    lanes::{Lanes, WIDTH},
     polarization::{Beams, is_normal},
 };
 
@@ -253,6 +254,36 @@ pub fn propagation(side: Side, incidence: &Incidence, direction: &Direction) -> 
         k_s.z = -k_s.z;
     }
     (k_i, k_s)
+}
+
+/// A scattered ray, or several: what of [`Direction`] formulas need.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outgoing<R> {
+    pub(crate) sin: R,
+    pub(crate) cos: R,
+    pub(crate) sin_phi: R,
+    pub(crate) cos_phi: R,
+}
+
+impl Outgoing<f64> {
+    #[inline]
+    pub(crate) fn one(direction: &Direction) -> Self {
+        let &Direction { sin, cos, sin_phi, cos_phi, .. } = direction;
+        Self { sin, cos, sin_phi, cos_phi }
+    }
+}
+
+impl Outgoing<Lanes> {
+    #[inline(always)]
+    pub(crate) fn several(directions: &[Direction; WIDTH]) -> Self {
+        let each = |f: fn(&Direction) -> f64| Lanes(directions.each_ref().map(f));
+        Self {
+            sin: each(|d| d.sin),
+            cos: each(|d| d.cos),
+            sin_phi: each(|d| d.sin_phi),
+            cos_phi: each(|d| d.cos_phi),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -187,6 +187,19 @@ impl<R: Real> Complex<R> {
         Self { re: self.re * b.re + self.im * b.im, im: self.im * b.re - self.re * b.im }
     }
 
+    /// x/a.
+    #[inline(always)]
+    pub(crate) fn fraction(x: R, a: Self) -> Self {
+        let scale = x / a.norm_sqr();
+        Self { re: a.re * scale, im: -(a.im * scale) }
+    }
+
+    /// a b with the same `b` in every lane.
+    #[inline(always)]
+    pub(crate) fn times(self, b: Complex64) -> Self {
+        Self { re: self.re * b.re - self.im * b.im, im: self.re * b.im + self.im * b.re }
+    }
+
     /// |z|².
     #[inline(always)]
     pub(crate) fn norm_sqr(self) -> R {
@@ -214,6 +227,15 @@ impl From<Complex<f64>> for Complex64 {
     }
 }
 
+impl<R: Real> Add<R> for Complex<R> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, x: R) -> Self {
+        Self { re: self.re + x, im: self.im }
+    }
+}
+
 impl<R: Real> Add for Complex<R> {
     type Output = Self;
 
@@ -238,6 +260,15 @@ impl<R: Real> Mul<R> for Complex<R> {
     #[inline(always)]
     fn mul(self, x: R) -> Self {
         Self { re: self.re * x, im: self.im * x }
+    }
+}
+
+impl<R: Real> Mul for Complex<R> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, b: Self) -> Self {
+        Self { re: self.re * b.re - self.im * b.im, im: self.re * b.im + self.im * b.re }
     }
 }
 

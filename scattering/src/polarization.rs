@@ -8,6 +8,6 @@ mod stokes;
 pub(crate) use basis::is_normal;
 pub use basis::{Basis, Beams, Frame, change_basis, perp};
 pub use jones::Jones;
-pub(crate) use jones::elements;
+pub(crate) use jones::muellers;
 pub use mueller::Mueller;
 pub use stokes::Stokes;

@@ -12,8 +12,9 @@
 //! $$ r = \frac{X-Z}{X+Z}, \quad t_s = \frac{2Y_0}{X+Z}, \quad
 //!    t_p = \frac{n_0}{n_t}\frac{2Y_0}{X+Z} $$
 //!
-//! Each F is used times e^{iδ}, so that thick absorbing films do not overflow; the product of
-//! these factors is put back where it matters.
+//! Where the wave fades, F is used times e^{iδ}, so that thick films do not overflow; the product
+//! of these factors is put back where it matters. A wave that travels without loss has real δ and
+//! Y, and its F has two real and two imaginary elements.
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.6.
 
@@ -94,6 +95,7 @@ pub struct Films {
 struct Medium {
     index: Complex64,
     epsilon: Complex64,
+    inverse_epsilon: Complex64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -117,7 +119,7 @@ struct Entrance {
     y0: Pair,
     x: Pair,
     z: Pair,
-    /// Π e^{iδ} over the films passed.
+    /// The product of the factors of the films passed.
     phase: Complex64,
 }
 
@@ -126,11 +128,12 @@ impl Medium {
         // A film whose graded index passes through 0 would have no admittance.
         let index =
             if index.norm_sqr() < LEAST_INDEX * LEAST_INDEX { LEAST_INDEX.into() } else { index };
-        Self { index, epsilon: index * index }
+        let epsilon = index * index;
+        Self { index, epsilon, inverse_epsilon: 1.0 / epsilon }
     }
 
     fn admittances(&self, q: Complex64) -> Pair {
-        Pair { s: q, p: q / self.epsilon }
+        Pair { s: q, p: q * self.inverse_epsilon }
     }
 }
 
@@ -272,12 +275,12 @@ impl Films {
             out[place(passed + 1)] = v.fields();
         }
         let amplitude = self.amplitude(entry, kappa2, &v);
-        // Π e^{iδ} of the films between the entrance and the interface.
+        // The factors of the films between the entrance and the interface.
         let mut phase = ONE;
         for (passed, layer) in self.exit_to_entrance(from).enumerate().rev() {
             let here = &mut out[place(passed + 1)];
             *here = here.scaled(amplitude, phase);
-            phase *= phase_factor(self.root(layer.medium.epsilon - kappa2), layer.phase);
+            phase *= layer.factor(self.root(layer.medium.epsilon - kappa2));
         }
         out[place(0)] = out[place(0)].scaled(amplitude, phase);
     }
@@ -308,15 +311,13 @@ impl Films {
             let q = self.root(layer.medium.epsilon - kappa2);
             if found.is_none() && distance <= passed + layer.thickness {
                 let part = self.part(layer.medium, distance - passed);
-                let mut inner = v;
-                inner.pass(&part, q);
-                left = phase_factor(q, layer.phase - part.phase);
-                found = Some(inner.fields());
-                v.pass(layer, q);
+                v.pass(&part, q);
+                found = Some(v.fields());
+                left = v.pass(&Layer { phase: layer.phase - part.phase, ..*layer }, q);
             } else {
-                let phase = v.pass(layer, q);
+                let factor = v.pass(layer, q);
                 if found.is_some() {
-                    left *= phase;
+                    left *= factor;
                 }
             }
             passed += layer.thickness;
@@ -355,12 +356,13 @@ impl Films {
         })
     }
 
+    #[inline]
     fn exit_vectors(&self, exit: Medium, kappa2: Complex64) -> Vectors {
         let y = exit.admittances(self.root(exit.epsilon - kappa2));
         Vectors { s: [ONE, y.s], p: [ONE, y.p] }
     }
 
-    /// Carries `v` through all films and returns Π e^{iδ}.
+    /// Carries `v` through all films and returns the product of their factors.
     fn pass_all(&self, from: Wave, kappa2: Complex64, v: &mut Vectors) -> Complex64 {
         let mut phase = ONE;
         for layer in self.exit_to_entrance(from) {
@@ -370,9 +372,17 @@ impl Films {
     }
 
     /// 2Y₀/(X + Z) of both polarizations for the vectors at the entrance.
+    #[inline]
     fn amplitude(&self, entry: Medium, kappa2: Complex64, v: &Vectors) -> Pair {
         let y0 = entry.admittances(self.root(entry.epsilon - kappa2));
-        Pair { s: 2.0 * y0.s / (v.s[0] * y0.s + v.s[1]), p: 2.0 * y0.p / (v.p[0] * y0.p + v.p[1]) }
+        let one = |y0: Complex64, [a, b]: [Complex64; 2]| {
+            if y0.im == 0.0 {
+                let sum = a * y0.re + b;
+                return sum.conj() * (2.0 * y0.re / sum.norm_sqr());
+            }
+            2.0 * y0 / (a * y0 + b)
+        };
+        Pair { s: one(y0.s, v.s), p: one(y0.p, v.p) }
     }
 
     fn entrance(&self, from: Wave, kappa2: Complex64) -> Entrance {
@@ -417,10 +427,30 @@ impl Entrance {
     }
 }
 
+impl Layer {
+    /// Whether a wave with this q travels in it without loss.
+    fn is_clear(&self, q: Complex64) -> bool {
+        q.im == 0.0 && self.medium.epsilon.im == 0.0
+    }
+
+    /// What [`Vectors::pass`] multiplies by: e^{iδ} where the wave fades.
+    fn factor(&self, q: Complex64) -> Complex64 {
+        if self.is_clear(q) { ONE } else { phase_factor(q, self.phase) }
+    }
+}
+
 impl Vectors {
-    /// Carries both vectors through `layer` (from its far to its near face), times e^{iδ}, and
-    /// returns e^{iδ}.
+    /// Carries both vectors through `layer`, from its far to its near face, and returns the
+    /// factor that they were multiplied by.
+    #[inline]
     fn pass(&mut self, layer: &Layer, q: Complex64) -> Complex64 {
+        if layer.phase == 0.0 {
+            return ONE;
+        }
+        if layer.is_clear(q) {
+            self.pass_clear(layer, q.re);
+            return ONE;
+        }
         let delta = q * layer.phase;
         let factor = phase_factor(q, layer.phase);
         let double = factor * factor;
@@ -434,12 +464,36 @@ impl Vectors {
             let sin = -0.5 * I * (double - 1.0);
             (sin, sin / q)
         };
-        let eps = layer.medium.epsilon;
+        let Medium { epsilon, inverse_epsilon, .. } = layer.medium;
         let [a, b] = self.s;
         self.s = [a * cos - I * b * sin_over_q, b * cos - I * a * q * sin];
         let [a, b] = self.p;
-        self.p = [a * cos - I * b * eps * sin_over_q, b * cos - I * a * q / eps * sin];
+        self.p =
+            [a * cos - I * b * epsilon * sin_over_q, b * cos - I * a * q * inverse_epsilon * sin];
         factor
+    }
+
+    /// The same where nothing is lost, without a factor.
+    #[inline]
+    fn pass_clear(&mut self, layer: &Layer, q: f64) {
+        let delta = q * layer.phase;
+        let (sin, cos) = delta.sin_cos();
+        let sin_over_q = if delta.abs() < SMALL_PHASE {
+            let d2 = delta * delta;
+            layer.phase * (1.0 - d2 / 6.0 * (1.0 - d2 / 20.0 * (1.0 - d2 / 42.0)))
+        } else {
+            sin / q
+        };
+        let Medium { epsilon, inverse_epsilon, .. } = layer.medium;
+        // −i z x.
+        let turned = |z: Complex64, x: f64| Complex64::new(z.im * x, -z.re * x);
+        let [a, b] = self.s;
+        self.s = [a * cos + turned(b, sin_over_q), b * cos + turned(a, q * sin)];
+        let [a, b] = self.p;
+        self.p = [
+            a * cos + turned(b, epsilon.re * sin_over_q),
+            b * cos + turned(a, q * inverse_epsilon.re * sin),
+        ];
     }
 
     fn fields(&self) -> Fields {
@@ -448,6 +502,7 @@ impl Vectors {
 }
 
 impl Fields {
+    #[inline]
     fn scaled(&self, amplitude: Pair, phase: Complex64) -> Self {
         let (s, p) = (amplitude.s * phase, amplitude.p * phase);
         Self { e: self.e * s, u: self.u * p, w: self.w * p }
@@ -468,7 +523,7 @@ pub fn decaying_root(z: Complex64) -> Complex64 {
 
 /// [`decaying_root`] of several numbers with one imaginary part.
 #[inline(always)]
-fn root<R: Real>(re: R, im: f64) -> Complex<R> {
+pub(crate) fn root<R: Real>(re: R, im: f64) -> Complex<R> {
     let part = |sign: f64| (re * sign).map(|x| if x < 0.0 { 0.0 } else { x }).sqrt();
     if im == 0.0 {
         return Complex { re: part(1.0), im: part(-1.0) };

@@ -123,6 +123,7 @@ impl FirstOrder {
     }
 
     /// The amplitude whose Mueller matrix is the BRDF; `seen` are the fields of the detector.
+    #[inline]
     pub fn scatter(&self, drive: &Drive, seen: &Fields, direction: &Direction) -> Jones {
         let scale = 1.0 / direction.cos.sqrt();
         let (c, s) = (direction.cos_phi * scale, direction.sin_phi * scale);

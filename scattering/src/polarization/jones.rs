@@ -5,7 +5,7 @@ use std::ops::{Add, Mul};
 use num_complex::Complex64;
 
 use super::Mueller;
-use crate::lanes::{Complex, Real};
+use crate::lanes::{Complex, Lanes, Real, WIDTH};
 
 /// A Jones matrix, output × input: `[[ss, ps], [sp, pp]]`, where `ps` turns p into s and `sp`
 /// turns s into p.
@@ -47,6 +47,16 @@ impl Jones {
         }
     }
 
+    /// The elements ss, ps, sp and pp of several matrices.
+    #[inline(always)]
+    pub(crate) fn side_by_side(several: &[Self; WIDTH]) -> [Complex<Lanes>; 4] {
+        let each = |f: fn(&Self) -> Complex64| Complex {
+            re: Lanes(several.each_ref().map(|j| f(j).re)),
+            im: Lanes(several.each_ref().map(|j| f(j).im)),
+        };
+        [each(|j| j.ss), each(|j| j.ps), each(|j| j.sp), each(|j| j.pp)]
+    }
+
     /// The Mueller matrix of this non-depolarizing element.
     pub fn mueller(&self) -> Mueller {
         Mueller(elements([self.ss, self.ps, self.sp, self.pp].map(Complex::from)))
@@ -55,7 +65,7 @@ impl Jones {
 
 /// The elements of the Mueller matrix of the Jones matrix with the elements ss, ps, sp, pp.
 #[inline(always)]
-pub(crate) fn elements<R: Real>([a, b, c, d]: [Complex<R>; 4]) -> [[R; 4]; 4] {
+fn elements<R: Real>([a, b, c, d]: [Complex<R>; 4]) -> [[R; 4]; 4] {
     let (a2, b2, c2, d2) = (a.norm_sqr(), b.norm_sqr(), c.norm_sqr(), d.norm_sqr());
     let (ab, cd) = (a.times_conjugate(b), d.times_conjugate(c));
     let (ac, bd) = (a.times_conjugate(c), d.times_conjugate(b));
@@ -69,6 +79,18 @@ pub(crate) fn elements<R: Real>([a, b, c, d]: [Complex<R>; 4]) -> [[R; 4]; 4] {
         [ac.re + bd.re, ac.re - bd.re, ad.re + bc.re, -ad.im - bc.im],
         [-ac.im + bd.im, -ac.im - bd.im, ad.im - bc.im, ad.re - bc.re],
     ]
+}
+
+/// The Mueller matrices of the Jones matrices with the elements ss, ps, sp, pp, times `weight`.
+#[inline(always)]
+pub(crate) fn muellers(jones: [Complex<Lanes>; 4], weight: Lanes, out: &mut [Mueller; WIDTH]) {
+    for (i, row) in elements(jones).into_iter().enumerate() {
+        for (j, element) in row.into_iter().enumerate() {
+            for (m, x) in out.iter_mut().zip((element * weight).0) {
+                m.0[i][j] = x;
+            }
+        }
+    }
 }
 
 impl Mul for Jones {

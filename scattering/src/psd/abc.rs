@@ -30,7 +30,7 @@ pub const SPEC: Spec<dyn Psd> = Spec {
     },
     build: |node| {
         let (b, c) = (node.number("B"), node.number("C"));
-        Ok(Box::new(Abc { a: strength(node, "A")?, b2: b * b, power: -0.5 * c }))
+        Ok(Box::new(Abc { a: strength(node, "A")?, b2: b * b, power: Power::new(-0.5 * c) }))
     },
 };
 
@@ -39,11 +39,42 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 pub struct Abc {
     a: f64,
     b2: f64,
-    power: f64,
+    power: Power,
+}
+
+/// An exponent; the usual ones are multiples of a quarter, which two square roots and a few
+/// products answer in a third of the time.
+#[derive(Clone, Copy, Debug)]
+enum Power {
+    Quarters(i32),
+    Any(f64),
+}
+
+impl Power {
+    /// The largest number of quarters: a dozen products keep 15 digits.
+    const MOST: f64 = 16.0;
+
+    fn new(power: f64) -> Self {
+        let quarters = 4.0 * power;
+        if quarters.fract() == 0.0 && quarters.abs() <= Self::MOST {
+            Self::Quarters(quarters as i32)
+        } else {
+            Self::Any(power)
+        }
+    }
+
+    /// x to this power.
+    #[inline]
+    fn of(self, x: f64) -> f64 {
+        match self {
+            Self::Quarters(count) => x.sqrt().sqrt().powi(count),
+            Self::Any(power) => x.powf(power),
+        }
+    }
 }
 
 impl Psd for Abc {
     fn density(&self, fx: f64, fy: f64) -> f64 {
-        self.a * (1.0 + self.b2 * (fx * fx + fy * fy)).powf(self.power)
+        self.a * self.power.of(1.0 + self.b2 * (fx * fx + fy * fy))
     }
 }

@@ -25,14 +25,15 @@ use num_complex::Complex64;
 
 use super::{
     FACET,
-    turn::{Outgoing, Tilted, Turn},
+    turn::{Tilted, Turn},
 };
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
+    geometry::Outgoing,
     lanes::{Lanes, WIDTH},
     models::{Brdf, COMMON, Common},
     optics::film::{Films, Pair},
-    polarization::elements,
+    polarization::muellers,
     slope::SlopeDistribution,
     spec::{Class, Laws, Spec},
     stack::Stack,
@@ -132,13 +133,7 @@ impl Facet {
         let jones = turn.elements(self.films.bare(facet.cos(), facet.sin2));
         let density = Lanes(self.slopes.densities(facet.slopes.map(|slope| slope.0)));
         let weight = density * facet.elongation() / (to.cos * (4.0 * incidence.cos) * norm);
-        for (i, row) in elements(jones).into_iter().enumerate() {
-            for (j, element) in row.into_iter().enumerate() {
-                for (m, x) in out.iter_mut().zip((element * weight).0) {
-                    m.0[i][j] = x;
-                }
-            }
-        }
+        muellers(jones, weight, out);
         for (k, m) in out.iter_mut().enumerate() {
             let unturned = self.unturned && facet.sin2.0[k] <= UNTURNED_REFLECTION;
             if norm.0[k] < f64::MIN_POSITIVE || unturned {

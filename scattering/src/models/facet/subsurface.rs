@@ -17,13 +17,10 @@
 
 use num_complex::Complex64;
 
-use super::{
-    FACET,
-    bare::turned,
-    turn::{Outgoing, Tilted},
-};
+use super::{FACET, bare::turned, turn::Tilted};
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Node, ParamError,
+    geometry::Outgoing,
     models::{Brdf, COMMON, Common},
     optics::film::{Films, Pair},
     slope::SlopeDistribution,

@@ -17,39 +17,10 @@
 
 use crate::{
     Direction, Incidence, Jones,
-    lanes::{Complex, Lanes, Real, WIDTH},
+    geometry::Outgoing,
+    lanes::{Complex, Real},
     optics::film::Pair,
 };
-
-/// A scattered ray, or several: what of [`Direction`] formulas need.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Outgoing<R> {
-    pub(crate) sin: R,
-    pub(crate) cos: R,
-    pub(crate) sin_phi: R,
-    pub(crate) cos_phi: R,
-}
-
-impl Outgoing<f64> {
-    #[inline]
-    pub(crate) fn one(direction: &Direction) -> Self {
-        let &Direction { sin, cos, sin_phi, cos_phi, .. } = direction;
-        Self { sin, cos, sin_phi, cos_phi }
-    }
-}
-
-impl Outgoing<Lanes> {
-    #[inline(always)]
-    pub(crate) fn several(directions: &[Direction; WIDTH]) -> Self {
-        let each = |f: fn(&Direction) -> f64| Lanes(directions.each_ref().map(f));
-        Self {
-            sin: each(|d| d.sin),
-            cos: each(|d| d.cos),
-            sin_phi: each(|d| d.sin_phi),
-            cos_phi: each(|d| d.cos_phi),
-        }
-    }
-}
 
 /// The facets that reflect a beam into one direction or several.
 #[derive(Clone, Copy, Debug)]

@@ -17,11 +17,13 @@ use num_complex::Complex64;
 
 use crate::{
     Direction, Incidence, Jones, Mueller, Node, ParamError,
+    lanes::{Lanes, Real},
     models::{Brdf, Common},
     optics::{
         film::{Fields, Films, Wave, decaying_root},
         first_order::{Drive, FirstOrder},
     },
+    polarization::muellers,
 };
 
 /// Where a sphere is.
@@ -157,7 +159,12 @@ impl Brdf for SmallSphere {
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
         let drive = self.drive(incidence);
-        for (m, direction) in out.iter_mut().zip(directions) {
+        let ((several, rest), (to, left)) = (directions.as_chunks(), out.as_chunks_mut());
+        for (directions, out) in several.iter().zip(to) {
+            let jones = directions.each_ref().map(|to| self.amplitude(&drive, to));
+            muellers(Jones::side_by_side(&jones), Lanes::new(1.0), out);
+        }
+        for (m, direction) in left.iter_mut().zip(rest) {
             *m = self.amplitude(&drive, direction).mueller();
         }
     }

@@ -36,8 +36,16 @@ impl Coherent {
         Ok(Box::new(Self::new(rough, &films, which)))
     }
 
-    fn sum(&self, jones: &[Jones]) -> Jones {
-        jones[self.which.clone()].iter().fold(Jones::default(), |sum, j| sum + *j)
+    /// Calls `each` with the position of every direction and its amplitude per √PSD.
+    fn amplitudes(
+        &self,
+        incidence: &Incidence,
+        directions: &[Direction],
+        mut each: impl FnMut(usize, Jones),
+    ) {
+        self.interfaces.amplitudes(incidence, directions, self.which.clone(), |place, jones| {
+            each(place, jones.iter().fold(Jones::default(), |sum, j| sum + *j));
+        });
     }
 }
 
@@ -53,16 +61,16 @@ impl Brdf for Coherent {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        self.interfaces.amplitudes(incidence, directions, |place, jones| {
+        self.amplitudes(incidence, directions, |place, jones| {
             let density = self.rough.density(incidence, &directions[place]);
-            out[place] = self.sum(jones).mueller() * density;
+            out[place] = jones.mueller() * density;
         });
     }
 
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
         let mut out = None;
-        self.interfaces.amplitudes(incidence, slice::from_ref(direction), |_, jones| {
-            out = Some(self.sum(jones).scaled(self.rough.density(incidence, direction).sqrt()));
+        self.amplitudes(incidence, slice::from_ref(direction), |_, jones| {
+            out = Some(jones.scaled(self.rough.density(incidence, direction).sqrt()));
         });
         out
     }

@@ -116,7 +116,7 @@ impl Brdf for GrowthStack {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        self.interfaces.amplitudes(incidence, directions, |place, jones| {
+        self.interfaces.amplitudes(incidence, directions, self.interfaces.all(), |place, jones| {
             let (fx, fy) = self.rough.frequency(incidence, &directions[place]);
             out[place] = self.grow(jones, fx, fy);
         });

@@ -9,7 +9,7 @@
 //! J. M. Elson, *Multilayer-coated optics: guided-wave coupling and scattering by means of
 //! interface random roughness*, J. Opt. Soc. Am. A 12, 729 (1995), by transfer matrices.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, ops::Range};
 
 use num_complex::Complex64;
 
@@ -55,24 +55,31 @@ impl Interfaces {
         Self { stack, contrasts }
     }
 
-    /// Calls `each` with the position of every direction and the amplitudes per √PSD of all
-    /// interfaces, that of the substrate first.
+    /// Every interface.
+    pub(super) fn all(&self) -> Range<usize> {
+        0..self.contrasts.len()
+    }
+
+    /// Calls `each` with the position of every direction and the amplitudes per √PSD of the
+    /// interfaces in `which`, that of the substrate first.
     pub(super) fn amplitudes(
         &self,
         incidence: &Incidence,
         directions: &[Direction],
+        which: Range<usize>,
         mut each: impl FnMut(usize, &[Jones]),
     ) {
         let count = self.contrasts.len();
         let mut fields = vec![Fields::default(); count];
         let drives = self.drives(incidence, &mut fields);
-        let mut jones = vec![Jones::default(); count];
+        let mut jones = vec![Jones::default(); which.len()];
         for (place, direction) in directions.iter().enumerate() {
             let (from, kappa) = self.stack.kappa_out(direction);
             self.stack.films().fields_at_interfaces(from, kappa, &mut fields);
-            for (m, (drive, seen)) in drives.iter().zip(&fields).enumerate() {
-                let from_substrate = if self.stack.is_turned_over() { count - 1 - m } else { m };
-                jones[from_substrate] = self.stack.scatter(drive, seen, direction);
+            for (jones, from_substrate) in jones.iter_mut().zip(which.clone()) {
+                let turned_over = self.stack.is_turned_over();
+                let m = if turned_over { count - 1 - from_substrate } else { from_substrate };
+                *jones = self.stack.scatter(&drives[m], &fields[m], direction);
             }
             each(place, &jones);
         }

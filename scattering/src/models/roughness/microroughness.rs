@@ -39,8 +39,11 @@ use num_complex::Complex64;
 use super::{ROUGHNESS, Rough};
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Side,
+    geometry::Outgoing,
+    lanes::{Complex, Lanes, Real},
     models::{Brdf, COMMON, Common},
-    optics::film::decaying_root,
+    optics::film::{decaying_root, root},
+    polarization::muellers,
     spec::{Class, Laws, Spec},
 };
 
@@ -106,45 +109,76 @@ impl Microroughness {
         Beam { q, s: factor / (incidence.cos + q), p: factor / (self.epsilon * incidence.cos + q) }
     }
 
+    /// Amplitude per √PSD: its elements ss, ps, sp and pp.
+    #[inline(always)]
+    fn elements<R: Real>(
+        &self,
+        beam: &Beam,
+        incidence: &Incidence,
+        to: &Outgoing<R>,
+    ) -> [Complex<R>; 4] {
+        let [ss, ps, sp, pp] = if self.transmits {
+            self.transmitted(beam, incidence, to)
+        } else {
+            self.reflected(beam, incidence, to)
+        };
+        let crossed = if self.rough.common.side.from_below() { R::new(-1.0) } else { R::new(1.0) };
+        [ss, ps * crossed, sp * crossed, pp]
+    }
+
+    #[inline(always)]
+    fn reflected<R: Real>(
+        &self,
+        beam: &Beam,
+        incidence: &Incidence,
+        to: &Outgoing<R>,
+    ) -> [Complex<R>; 4] {
+        let Complex64 { re, im } = self.epsilon;
+        let q = root(-(to.sin * to.sin) + re, im);
+        let factor = to.cos.sqrt();
+        let s = Complex::fraction(factor, q + to.cos);
+        let p = Complex::fraction(factor, q + Complex { re: to.cos * re, im: to.cos * im });
+        let sines = to.sin * incidence.sin;
+        let along = Complex { re: sines * re, im: sines * im } - q.times(beam.q) * to.cos_phi;
+        [
+            s.times(beam.s) * to.cos_phi,
+            s.times(beam.p * beam.q) * -to.sin_phi,
+            (q * p).times(beam.s) * -to.sin_phi,
+            (p * along).times(beam.p),
+        ]
+    }
+
+    #[inline(always)]
+    fn transmitted<R: Real>(
+        &self,
+        beam: &Beam,
+        incidence: &Incidence,
+        to: &Outgoing<R>,
+    ) -> [Complex<R>; 4] {
+        let (index, epsilon) = (self.index, self.epsilon);
+        let kappa = to.sin * index.re;
+        let a = to.cos * index.re;
+        let mut b = root(-(kappa * kappa) + 1.0, 0.0);
+        if self.growing {
+            b.im = -b.im;
+        }
+        let factor = a.sqrt();
+        let s = Complex::fraction(factor, b + a);
+        let p = Complex::fraction(factor, b.times(epsilon) + a);
+        let along = b.times(beam.q) * to.cos_phi + kappa * incidence.sin;
+        [
+            s.times(beam.s) * to.cos_phi,
+            s.times(beam.p * beam.q) * -to.sin_phi,
+            (p * b).times(beam.s * index) * to.sin_phi,
+            (p * along).times(beam.p * index),
+        ]
+    }
+
     /// Amplitude per √PSD.
     fn amplitude(&self, beam: &Beam, incidence: &Incidence, direction: &Direction) -> Jones {
-        let jones = if self.transmits {
-            self.transmitted(beam, incidence, direction)
-        } else {
-            self.reflected(beam, incidence, direction)
-        };
-        if self.rough.common.side.from_below() { jones.flipped() } else { jones }
-    }
-
-    fn reflected(&self, beam: &Beam, incidence: &Incidence, direction: &Direction) -> Jones {
-        let epsilon = self.epsilon;
-        let q = decaying_root(epsilon - direction.sin * direction.sin);
-        let factor = direction.cos.sqrt();
-        let (s, p) = (factor / (direction.cos + q), factor / (epsilon * direction.cos + q));
-        let along = epsilon * (incidence.sin * direction.sin) - beam.q * q * direction.cos_phi;
-        Jones {
-            ss: beam.s * s * direction.cos_phi,
-            ps: -beam.p * beam.q * s * direction.sin_phi,
-            sp: -beam.s * q * p * direction.sin_phi,
-            pp: beam.p * p * along,
-        }
-    }
-
-    fn transmitted(&self, beam: &Beam, incidence: &Incidence, direction: &Direction) -> Jones {
-        let (index, epsilon) = (self.index, self.epsilon);
-        let kappa = index.re * direction.sin;
-        let a = index.re * direction.cos;
-        let decaying = decaying_root((1.0 - kappa * kappa).into());
-        let b = if self.growing { decaying.conj() } else { decaying };
-        let factor = a.sqrt();
-        let (s, p) = (factor / (a + b), factor / (a + epsilon * b));
-        let along = kappa * incidence.sin + beam.q * b * direction.cos_phi;
-        Jones {
-            ss: beam.s * s * direction.cos_phi,
-            ps: -beam.p * beam.q * s * direction.sin_phi,
-            sp: beam.s * p * index * b * direction.sin_phi,
-            pp: beam.p * p * index * along,
-        }
+        let elements = self.elements(beam, incidence, &Outgoing::one(direction));
+        let [ss, ps, sp, pp] = elements.map(Into::into);
+        Jones { ss, ps, sp, pp }
     }
 }
 
@@ -160,7 +194,13 @@ impl Brdf for Microroughness {
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
         let beam = self.beam(incidence);
-        for (m, direction) in out.iter_mut().zip(directions) {
+        let ((several, rest), (to, left)) = (directions.as_chunks(), out.as_chunks_mut());
+        for (directions, out) in several.iter().zip(to) {
+            let jones = self.elements(&beam, incidence, &Outgoing::several(directions));
+            let density = Lanes(directions.each_ref().map(|to| self.rough.density(incidence, to)));
+            muellers(jones, density, out);
+        }
+        for (m, direction) in left.iter_mut().zip(rest) {
             let jones = self.amplitude(&beam, incidence, direction);
             *m = jones.mueller() * self.rough.density(incidence, direction);
         }

@@ -54,7 +54,7 @@ impl Brdf for UncorrelatedStack {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        self.interfaces.amplitudes(incidence, directions, |place, jones| {
+        self.interfaces.amplitudes(incidence, directions, self.interfaces.all(), |place, jones| {
             let sum = jones.iter().fold(Mueller::ZERO, |sum, j| sum + j.mueller());
             out[place] = sum * self.rough.density(incidence, &directions[place]);
         });

@@ -5,6 +5,8 @@
 //! to 0 in the first evaluation, so that with an absorbing substrate the second one fails
 //! ([`Defect::SumAbsorbing`]); compat refuses at once.
 
+use std::slice;
+
 use crate::{
     Basis, Defect, Direction, Incidence, Jones, Mode, Mueller, Node, ParamError,
     geometry::beams,
@@ -105,19 +107,22 @@ impl Weighted {
         Ok(Self { common, sources: Source::read_all(node, &common, count)?, mode: node.mode })
     }
 
-    fn to_psps(
+    /// What `source` answered, in the basis of the sum and times its factor.
+    fn weigh(
         &self,
-        model: &dyn Brdf,
-        m: Mueller,
+        source: &Source,
         incidence: &Incidence,
-        direction: &Direction,
-    ) -> Mueller {
-        let from = model.native_basis();
-        if from == Basis::Psps {
-            return m;
+        directions: &[Direction],
+        answers: &mut [Mueller],
+    ) {
+        let from = source.model.native_basis();
+        for (m, direction) in answers.iter_mut().zip(directions) {
+            if from != Basis::Psps {
+                let beams = beams(self.common.side, incidence, direction, self.mode);
+                *m = change_basis(*m, from, Basis::Psps, &beams);
+            }
+            *m *= source.factor;
         }
-        let beams = beams(self.common.side, incidence, direction, self.mode);
-        change_basis(m, from, Basis::Psps, &beams)
     }
 }
 
@@ -131,21 +136,21 @@ impl Brdf for Weighted {
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
-        let mut sum = Mueller::ZERO;
-        for Source { factor, model } in &self.sources {
-            let m = model.mueller(incidence, direction);
-            sum += self.to_psps(&**model, m, incidence, direction) * *factor;
-        }
-        sum
+        let mut out = [Mueller::ZERO];
+        self.mueller_batch(incidence, slice::from_ref(direction), &mut out);
+        out[0]
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        out.fill(Mueller::ZERO);
+        let (first, others) = self.sources.split_first().expect("a sum has sources");
+        first.model.mueller_batch(incidence, directions, out);
+        self.weigh(first, incidence, directions, out);
         let mut part = vec![Mueller::ZERO; directions.len()];
-        for Source { factor, model } in &self.sources {
-            model.mueller_batch(incidence, directions, &mut part);
-            for ((sum, m), direction) in out.iter_mut().zip(&part).zip(directions) {
-                *sum += self.to_psps(&**model, *m, incidence, direction) * *factor;
+        for source in others {
+            source.model.mueller_batch(incidence, directions, &mut part);
+            self.weigh(source, incidence, directions, &mut part);
+            for (sum, m) in out.iter_mut().zip(&part) {
+                *sum += *m;
             }
         }
     }
