@@ -41,6 +41,12 @@ pub(crate) trait Real:
         self.map(f64::sqrt)
     }
 
+    /// The sine and the cosine.
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        (self.map(f64::sin), self.map(f64::cos))
+    }
+
     /// `a` where this is not negative, `b` elsewhere.
     #[inline(always)]
     fn choose(self, a: Self, b: Self) -> Self {
@@ -192,6 +198,18 @@ impl<R: Real> Complex<R> {
     pub(crate) fn fraction(x: R, a: Self) -> Self {
         let scale = x / a.norm_sqr();
         Self { re: a.re * scale, im: -(a.im * scale) }
+    }
+
+    /// The real number `x`.
+    #[inline(always)]
+    pub(crate) fn real(x: R) -> Self {
+        Self { re: x, im: R::new(0.0) }
+    }
+
+    /// −i z x.
+    #[inline(always)]
+    pub(crate) fn turned_back(self, x: R) -> Self {
+        Self { re: self.im * x, im: -(self.re * x) }
     }
 
     /// a b with the same `b` in every lane.

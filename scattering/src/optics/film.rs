@@ -18,6 +18,8 @@
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.6.
 
+mod clear;
+
 use std::f64::consts::TAU;
 
 use num_complex::Complex64;
@@ -87,6 +89,10 @@ pub struct Films {
     layers: Vec<Layer>,
     /// 2π/λ, 1/µm.
     wave_number: f64,
+    /// That of all films, µm.
+    thickness: f64,
+    /// The largest κ² that passes every film without loss; negative if there is none.
+    clear_below: f64,
     loss: f64,
     growing: bool,
 }
@@ -152,11 +158,17 @@ impl Films {
             phase: wave_number * thickness,
             thickness,
         };
+        let layers: Vec<Layer> = films.iter().map(layer).collect();
+        let clear = |layer: &Layer| {
+            if layer.medium.epsilon.im == 0.0 { layer.medium.epsilon.re } else { -1.0 }
+        };
         Self {
             outer: Medium::new(outer),
             substrate: Medium::new(substrate),
-            layers: films.iter().map(layer).collect(),
             wave_number,
+            thickness: layers.iter().map(|layer| layer.thickness).sum(),
+            clear_below: layers.iter().map(clear).fold(f64::INFINITY, f64::min),
+            layers,
             loss: 0.0,
             growing: false,
         }
@@ -173,6 +185,7 @@ impl Films {
     /// angle ([`Defect::RecyclingBranch`](crate::Defect::RecyclingBranch)).
     pub fn with_growing_branch(mut self) -> Self {
         self.growing = true;
+        self.clear_below = -1.0;
         self
     }
 
@@ -290,11 +303,14 @@ impl Films {
     /// beyond the films in the substrate.
     pub fn fields_at_depth(&self, from: Wave, kappa: Complex64, depth: f64) -> Fields {
         let kappa2 = kappa * kappa;
+        if kappa.im == 0.0 && self.is_clear_at(kappa2.re, depth) {
+            let [e, u, w] = self.clear_fields(from, kappa2.re, depth).map(Into::into);
+            return Fields { e, u, w };
+        }
         let (entry, exit) = self.ends(from);
-        let total: f64 = self.layers.iter().map(|layer| layer.thickness).sum();
         // Distance from the exit face, positive towards the source.
         let distance = match from {
-            Wave::FromOutside => total - depth,
+            Wave::FromOutside => self.thickness - depth,
             Wave::FromSubstrate => depth,
         };
         let mut v = self.exit_vectors(exit, kappa2);
@@ -448,7 +464,8 @@ impl Vectors {
             return ONE;
         }
         if layer.is_clear(q) {
-            self.pass_clear(layer, q.re);
+            let v = clear::passed([self.s, self.p].map(|v| v.map(Into::into)), layer, q.re);
+            [self.s, self.p] = v.map(|v| v.map(Into::into));
             return ONE;
         }
         let delta = q * layer.phase;
@@ -471,29 +488,6 @@ impl Vectors {
         self.p =
             [a * cos - I * b * epsilon * sin_over_q, b * cos - I * a * q * inverse_epsilon * sin];
         factor
-    }
-
-    /// The same where nothing is lost, without a factor.
-    #[inline]
-    fn pass_clear(&mut self, layer: &Layer, q: f64) {
-        let delta = q * layer.phase;
-        let (sin, cos) = delta.sin_cos();
-        let sin_over_q = if delta.abs() < SMALL_PHASE {
-            let d2 = delta * delta;
-            layer.phase * (1.0 - d2 / 6.0 * (1.0 - d2 / 20.0 * (1.0 - d2 / 42.0)))
-        } else {
-            sin / q
-        };
-        let Medium { epsilon, inverse_epsilon, .. } = layer.medium;
-        // −i z x.
-        let turned = |z: Complex64, x: f64| Complex64::new(z.im * x, -z.re * x);
-        let [a, b] = self.s;
-        self.s = [a * cos + turned(b, sin_over_q), b * cos + turned(a, q * sin)];
-        let [a, b] = self.p;
-        self.p = [
-            a * cos + turned(b, epsilon.re * sin_over_q),
-            b * cos + turned(a, q * inverse_epsilon.re * sin),
-        ];
     }
 
     fn fields(&self) -> Fields {

@@ -21,7 +21,11 @@
 use num_complex::Complex64;
 
 use super::film::{Fields, Films, Wave};
-use crate::{Direction, Incidence, Jones, Side};
+use crate::{
+    Direction, Incidence, Jones, Side,
+    geometry::Outgoing,
+    lanes::{Complex, Real},
+};
 
 /// A film stack turned so that the light comes from its outer side.
 #[derive(Clone, Debug)]
@@ -125,15 +129,29 @@ impl FirstOrder {
     /// The amplitude whose Mueller matrix is the BRDF; `seen` are the fields of the detector.
     #[inline]
     pub fn scatter(&self, drive: &Drive, seen: &Fields, direction: &Direction) -> Jones {
-        let scale = 1.0 / direction.cos.sqrt();
-        let (c, s) = (direction.cos_phi * scale, direction.sin_phi * scale);
-        let w = seen.w * (self.sign * self.index);
-        let jones = Jones {
-            ss: drive.e * seen.e * c,
-            ps: drive.w * seen.e * -s,
-            sp: drive.e * w * s,
-            pp: drive.d * seen.u * (direction.sin * scale) + drive.w * w * c,
-        };
-        if self.turned_over { jones.flipped() } else { jones }
+        let seen = [seen.e, seen.u, seen.w].map(Into::into);
+        let [ss, ps, sp, pp] =
+            self.elements(drive, seen, &Outgoing::one(direction)).map(Into::into);
+        Jones { ss, ps, sp, pp }
+    }
+
+    /// The elements ss, ps, sp and pp of that amplitude, for one direction or several.
+    #[inline(always)]
+    pub(crate) fn elements<R: Real>(
+        &self,
+        drive: &Drive,
+        [e, u, w]: [Complex<R>; 3],
+        to: &Outgoing<R>,
+    ) -> [Complex<R>; 4] {
+        let scale = R::new(1.0) / to.cos.sqrt();
+        let (c, s) = (to.cos_phi * scale, to.sin_phi * scale);
+        let w = w * R::new(self.sign * self.index);
+        let across = if self.turned_over { -s } else { s };
+        [
+            e.times(drive.e) * c,
+            e.times(drive.w) * -across,
+            w.times(drive.e) * across,
+            u.times(drive.d) * (to.sin * scale) + w.times(drive.w) * c,
+        ]
     }
 }

@@ -17,7 +17,8 @@ use num_complex::Complex64;
 
 use crate::{
     Direction, Incidence, Jones, Mueller, Node, ParamError,
-    lanes::{Lanes, Real},
+    geometry::Outgoing,
+    lanes::{Complex, Lanes, Real, WIDTH},
     models::{Brdf, Common},
     optics::{
         film::{Fields, Films, Wave, decaying_root},
@@ -125,6 +126,23 @@ impl SmallSphere {
         self.stack.drive(incidence, &fields, self.coupling, self.inverse_product)
     }
 
+    /// The elements of [`SmallSphere::amplitude`] of several directions.
+    #[inline(always)]
+    fn amplitudes(&self, drive: &Drive, directions: &[Direction; WIDTH]) -> [Complex<Lanes>; 4] {
+        let kappa_squared = directions.each_ref().map(|to| {
+            let (_, kappa) = self.stack.kappa_out(to);
+            kappa.re * kappa.re
+        });
+        let films = self.stack.films();
+        let clear = |&squared: &f64| films.is_clear_at(squared, self.depth);
+        if self.from_face.is_some() || !kappa_squared.iter().all(clear) {
+            return Jones::side_by_side(&directions.each_ref().map(|to| self.amplitude(drive, to)));
+        }
+        let (from, _) = self.stack.kappa_out(&directions[0]);
+        let seen = films.clear_fields(from, Lanes(kappa_squared), self.depth);
+        self.stack.elements(drive, seen, &Outgoing::several(directions))
+    }
+
     fn amplitude(&self, drive: &Drive, direction: &Direction) -> Jones {
         let (from, kappa) = self.stack.kappa_out(direction);
         let seen = self.fields(from, direction.sin, kappa);
@@ -161,8 +179,7 @@ impl Brdf for SmallSphere {
         let drive = self.drive(incidence);
         let ((several, rest), (to, left)) = (directions.as_chunks(), out.as_chunks_mut());
         for (directions, out) in several.iter().zip(to) {
-            let jones = directions.each_ref().map(|to| self.amplitude(&drive, to));
-            muellers(Jones::side_by_side(&jones), Lanes::new(1.0), out);
+            muellers(self.amplitudes(&drive, directions), Lanes::new(1.0), out);
         }
         for (m, direction) in left.iter_mut().zip(rest) {
             *m = self.amplitude(&drive, direction).mueller();

@@ -1,0 +1,91 @@
+//! Films in which a wave travels without loss, for one angle or several at once.
+//!
+//! δ and Y are real there, so F has two real and two imaginary elements and needs no factor.
+
+use super::{Films, Layer, Medium, SMALL_PHASE, Wave, root};
+use crate::lanes::{Complex, Real};
+
+/// (1, Y) of s and of p, carried through films.
+type Tangential<R> = [[Complex<R>; 2]; 2];
+
+impl Films {
+    /// Whether waves of the squared tangential index `kappa_squared` pass every film without loss
+    /// and the place `depth` µm below the outer face lies in a film.
+    #[inline]
+    pub(crate) fn is_clear_at(&self, kappa_squared: f64, depth: f64) -> bool {
+        kappa_squared <= self.clear_below && (0.0..=self.thickness).contains(&depth)
+    }
+
+    /// [`Films::fields_at_depth`] E, U and W where [`Films::is_clear_at`] holds, by the squared
+    /// tangential index.
+    #[inline(always)]
+    pub(crate) fn clear_fields<R: Real>(
+        &self,
+        from: Wave,
+        kappa_squared: R,
+        depth: f64,
+    ) -> [Complex<R>; 3] {
+        let (entry, exit) = self.ends(from);
+        // From the exit face, positive towards the source.
+        let mut distance = match from {
+            Wave::FromOutside => self.thickness - depth,
+            Wave::FromSubstrate => depth,
+        };
+        let y = exit.admittance_pair(kappa_squared);
+        let one = Complex::real(R::new(1.0));
+        let mut v = [[one, y[0]], [one, y[1]]];
+        let mut there = None;
+        let last = self.layers.len().saturating_sub(1);
+        for (place, layer) in self.exit_to_entrance(from).enumerate() {
+            let q = (-kappa_squared + layer.medium.epsilon.re).sqrt();
+            // Rounding leaves no gap behind the last film.
+            if there.is_none() && (distance <= layer.thickness || place == last) {
+                let part = self.part(layer.medium, distance.min(layer.thickness));
+                let inside = passed(v, &part, q);
+                v = passed(inside, &Layer { phase: layer.phase - part.phase, ..*layer }, q);
+                there = Some(inside);
+            } else {
+                v = passed(v, layer, q);
+            }
+            distance -= layer.thickness;
+        }
+        let there = there.unwrap_or(v);
+        let y0 = entry.admittance_pair(kappa_squared);
+        let amplitude = |k: usize| (y0[k] + y0[k]).over(v[k][0] * y0[k] + v[k][1]);
+        let (s, p) = (amplitude(0), amplitude(1));
+        [there[0][0] * s, there[1][0] * p, there[1][1] * p]
+    }
+}
+
+impl Medium {
+    /// Y of s and p.
+    #[inline(always)]
+    fn admittance_pair<R: Real>(&self, kappa_squared: R) -> [Complex<R>; 2] {
+        let q = root(-kappa_squared + self.epsilon.re, self.epsilon.im);
+        [q, q.times(self.inverse_epsilon)]
+    }
+}
+
+/// What the far face of a film without loss turns `v` into at its near face.
+#[inline(always)]
+pub(super) fn passed<R: Real>(v: Tangential<R>, layer: &Layer, q: R) -> Tangential<R> {
+    if layer.phase == 0.0 {
+        return v;
+    }
+    let delta = q * layer.phase;
+    let (sin, cos) = delta.sin_cos();
+    let d2 = delta * delta;
+    let series = d2 * (1.0 / 42.0) + -1.0;
+    let series = d2 * (1.0 / 20.0) * series + 1.0;
+    let series = (-(d2 * (1.0 / 6.0) * series) + 1.0) * layer.phase;
+    let sin_over_q = (d2 - SMALL_PHASE * SMALL_PHASE).choose(sin / q, series);
+    let Medium { epsilon, inverse_epsilon, .. } = layer.medium;
+    let [[e, h], [u, w]] = v;
+    [
+        [e * cos + h.turned_back(sin_over_q), h * cos + e.turned_back(q * sin)],
+        [
+            u * cos + w.turned_back(sin_over_q * epsilon.re),
+            w * cos + u.turned_back(q * sin * inverse_epsilon.re),
+        ],
+    ]
+}
