@@ -17,6 +17,8 @@ pub(crate) use status::{State, Status};
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, atomic::Ordering};
 
+use tokio::sync::watch;
+
 use self::{
     desk::Desk,
     job::{Record, json},
@@ -42,6 +44,8 @@ struct Office {
     desk: Mutex<Desk>,
     /// There is a job to run, or none will come any more.
     bell: Condvar,
+    /// The service takes leave of those who follow its jobs.
+    leaving: watch::Sender<bool>,
 }
 
 impl Jobs {
@@ -64,7 +68,13 @@ impl Jobs {
             desk.take_up(record);
         }
         let desk = Mutex::new(desk);
-        Ok(Self(Arc::new(Office { store, limits, desk, bell: Condvar::new() })))
+        Ok(Self(Arc::new(Office {
+            store,
+            limits,
+            desk,
+            bell: Condvar::new(),
+            leaving: watch::Sender::new(false),
+        })))
     }
 
     /// Starts the threads that run jobs.
@@ -167,6 +177,19 @@ impl Jobs {
             self.0.over(job);
         }
         Ok(job.status())
+    }
+
+    /// Ends what waits for [`Jobs::left`].
+    pub(crate) fn leave(&self) {
+        self.0.leaving.send_replace(true);
+    }
+
+    /// Waits until the service takes leave of those who follow its jobs.
+    pub(crate) fn left(&self) -> impl Future<Output = ()> + use<> {
+        let mut leaving = self.0.leaving.subscribe();
+        async move {
+            let _ = leaving.wait_for(|leaving| *leaving).await;
+        }
     }
 
     /// Whether no more jobs are accepted.

@@ -65,6 +65,7 @@ pub(super) fn serve(args: &Args) -> Result<(), Stop> {
         let stop = async {
             // Without a signal handler the process ends at once, which is what was wished.
             let _ = interrupt::asked().await;
+            app.leave();
         };
         http::serve(listener, http::router(app.clone()), &args.limits, stop).await.map_err(failed)
     });

@@ -11,7 +11,7 @@ use axum::{
         sse::{Event, KeepAlive},
     },
 };
-use futures_util::{Stream, stream};
+use futures_util::{Stream, StreamExt, stream};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
@@ -143,7 +143,8 @@ pub(super) async fn cancel(
     Ok((code, Json(status)))
 }
 
-/// Where a job stands, and every change until it is over, as server-sent events `status`.
+/// Where a job stands, and every change until it is over or the service stops, as server-sent
+/// events `status`.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/events",
@@ -169,6 +170,7 @@ pub(super) async fn events(
         let rest = (!status.state.is_over()).then_some(changes);
         Some((Ok(event), rest))
     });
+    let stream = stream.take_until(app.jobs.left());
     Ok(Sse::new(stream).keep_alive(KeepAlive::default()))
 }
 

@@ -101,6 +101,11 @@ impl App {
         })
     }
 
+    /// Ends the answers that go on as long as a job: they would keep a service that stops.
+    pub fn leave(&self) {
+        self.jobs.leave();
+    }
+
     /// Stops the jobs; what they finished is kept. Returns when they have stopped.
     pub fn stop(&self) {
         self.jobs.stop();

@@ -1,6 +1,9 @@
 //! A service that ends in the middle of its work, and starts again.
 
-use std::process::Command;
+use std::{
+    io::{Read, Write},
+    process::Command,
+};
 
 use crate::service::Service;
 
@@ -37,11 +40,36 @@ fn a_service_that_is_asked_to_stop_keeps_what_its_job_has_done() {
     assert_eq!(service.ask("PUT", "/v1/materials/white", put).0, 201);
     let id = service.submit(LONG);
     service.wait(&id, |status| status["progress"].as_f64().unwrap() > 0.1);
-    let kill = Command::new("kill").arg(service.process.id().to_string()).status().unwrap();
-    assert!(kill.success());
-    assert!(service.process.wait().unwrap().success());
+    stop(&mut service);
     let service = Service::start(data.path(), &[]);
     assert!(service.ask("GET", "/v1/materials", "").1.contains("white"));
     service.results(&id);
     assert!(service.wait(&id, |_| true)["resumed_after"].as_u64().unwrap() > 0);
+}
+
+/// Asks the service to stop and waits until it has.
+#[cfg(unix)]
+fn stop(service: &mut Service) {
+    let kill = Command::new("kill").arg(service.process.id().to_string()).status().unwrap();
+    assert!(kill.success());
+    assert!(service.process.wait().unwrap().success());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_service_that_stops_ends_the_events_of_a_job_that_runs() {
+    let data = tempfile::tempdir().unwrap();
+    let mut service = Service::start(data.path(), &[]);
+    // Longer than a service that stops waits for its answers.
+    let id = service.submit(&LONG.replace("(0.7*rad)^2", "(0.1*rad)^2"));
+    service.wait(&id, |status| status["state"] == "running");
+    let mut stream = service.connect();
+    write!(stream, "GET /v1/jobs/{id}/events HTTP/1.1\r\nHost: mist\r\n\r\n").unwrap();
+    let mut begin = [0; 16];
+    stream.read_exact(&mut begin).unwrap();
+    stop(&mut service);
+    let mut rest = Vec::new();
+    stream.read_to_end(&mut rest).unwrap();
+    // The last chunk: an answer that was cut off does not have it.
+    assert!(rest.ends_with(b"\r\n0\r\n\r\n"), "{}", String::from_utf8_lossy(&rest));
 }

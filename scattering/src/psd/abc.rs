@@ -42,8 +42,8 @@ pub struct Abc {
     power: Power,
 }
 
-/// An exponent; the usual ones are multiples of a quarter, which two square roots and a few
-/// products answer in a third of the time.
+/// An exponent; the usual ones are multiples of a quarter, for which two square roots and a few
+/// products do.
 #[derive(Clone, Copy, Debug)]
 enum Power {
     Quarters(i32),
@@ -51,7 +51,7 @@ enum Power {
 }
 
 impl Power {
-    /// The largest number of quarters: a dozen products keep 15 digits.
+    /// The largest number of quarters: so few products keep 14 digits.
     const MOST: f64 = 16.0;
 
     fn new(power: f64) -> Self {
@@ -76,5 +76,24 @@ impl Power {
 impl Psd for Abc {
     fn density(&self, fx: f64, fy: f64) -> f64 {
         self.a * self.power.of(1.0 + self.b2 * (fx * fx + fy * fy))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multiples_of_a_quarter_are_the_powers_of_the_standard_library() {
+        for quarters in -20..=20 {
+            let power = 0.25 * f64::from(quarters);
+            assert_eq!(matches!(Power::new(power), Power::Quarters(_)), quarters.abs() <= 16);
+            for x in [1.0, 1.7, 37.0, 2.5e9] {
+                let (got, expected) = (Power::new(power).of(x), x.powf(power));
+                assert!((got - expected).abs() <= 1e-14 * expected, "{x}^{power}: {got:e}");
+            }
+        }
+        assert!(matches!(Power::new(0.3), Power::Any(_)));
+        assert!(Power::new(f64::NAN).of(2.0).is_nan());
     }
 }

@@ -1,6 +1,11 @@
 //! Films in which a wave travels without loss, for one angle or several at once.
 //!
-//! δ and Y are real there, so F has two real and two imaginary elements and needs no factor.
+//! $$ F = \begin{pmatrix} \cos\delta & -i\sin\delta/Y \\ -iY\sin\delta & \cos\delta \end{pmatrix},
+//!    \quad \delta = 2\pi t q/\lambda, \quad Y = q,\; q/n^2 $$
+//!
+//! has real δ and Y there: two real and two imaginary elements, and no factor e^{iδ} is needed.
+//!
+//! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.6.
 
 use super::{Films, Layer, Medium, SMALL_PHASE, Wave, root};
 use crate::lanes::{Complex, Real};
