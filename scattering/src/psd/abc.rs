@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn multiples_of_a_quarter_are_the_powers_of_the_standard_library() {
-        for quarters in -20..=20 {
+        for quarters in -20_i32..=20 {
             let power = 0.25 * f64::from(quarters);
             assert_eq!(matches!(Power::new(power), Power::Quarters(_)), quarters.abs() <= 16);
             for x in [1.0, 1.7, 37.0, 2.5e9] {
