@@ -9,6 +9,7 @@ use crate::spec::{Family, Member, Node, ParamError, Spec};
 
 pub mod abc;
 pub mod double;
+pub mod elliptic;
 pub mod elliptical_mesa;
 pub mod fractal;
 pub mod gaussian;

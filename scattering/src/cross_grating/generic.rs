@@ -19,30 +19,17 @@ use super::{
 use crate::{
     grating::{
         Material,
-        generic::description::{Description, Surroundings},
-        generic::shares,
+        generic::{
+            FILE,
+            description::{Description, Surroundings},
+            shares,
+        },
         levels,
     },
-    spec::{Class, Kind, Laws, Node, Param, ParamError, Spec},
+    spec::{Class, Laws, Node, Param, ParamError, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param {
-        name: "filename",
-        kind: Kind::File,
-        default: "",
-        unit: "",
-        doc: "File with the description",
-    },
-    Param {
-        name: "pstring",
-        kind: Kind::Text,
-        default: "",
-        unit: "",
-        doc: "Values of the file's PARAMETERS, (v1,v2,...)",
-    },
-    Param::integer("nlayers", "10", "Number of slices, about"),
-];
+const OWN: &[Param] = &[Param::integer("nlayers", "10", "Number of slices, about")];
 
 /// How programs name, parameterize and build a [`Generic`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
@@ -52,7 +39,7 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         summary: "Crossed grating from a description file",
         equation: "materials between triangles of a drawing",
         source: "li-1997",
-        params: &[MEDIA, CELL, OWN],
+        params: &[MEDIA, CELL, FILE, OWN],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(Generic::read(node)?)),

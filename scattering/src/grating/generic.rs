@@ -18,7 +18,8 @@ mod expression;
 
 use description::{Description, Surroundings};
 
-const OWN: &[Param] = &[
+/// The description file of a drawn grating.
+pub(crate) const FILE: &[Param] = &[
     Param {
         name: "filename",
         kind: Kind::File,
@@ -33,8 +34,9 @@ const OWN: &[Param] = &[
         unit: "",
         doc: "Values of the file's PARAMETERS, (v1,v2,...)",
     },
-    Param::integer("nlayers", "20", "Number of slices, about"),
 ];
+
+const OWN: &[Param] = &[Param::integer("nlayers", "20", "Number of slices, about")];
 
 /// How programs name, parameterize and build a [`Generic`].
 pub const SPEC: Spec<dyn Grating> = Spec {
@@ -44,7 +46,7 @@ pub const SPEC: Spec<dyn Grating> = Spec {
         summary: "Line grating from a description file",
         equation: "materials between boundaries of a drawing",
         source: "li-1996b",
-        params: &[COMMON, OWN],
+        params: &[COMMON, FILE, OWN],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(Generic::read(node)?)),
