@@ -3,7 +3,9 @@
 mod bands;
 mod error;
 mod even;
+mod spread;
 
 pub use bands::Bands;
 pub use error::ExportError;
 pub(crate) use even::{even, quantile};
+pub use spread::Spread;

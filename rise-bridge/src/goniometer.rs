@@ -15,7 +15,7 @@ mod spread;
 mod write;
 
 pub use read::{Goniometer, Row, read};
-pub use spread::{Spread, choose_axes, spread};
+pub use spread::{choose_axes, spread};
 pub use write::write;
 
 use crate::export::ExportError;

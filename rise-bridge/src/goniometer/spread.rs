@@ -1,13 +1,10 @@
 //! How far a table is from its material between its nodes, and the smallest grid that is near.
 
-use rayon::prelude::*;
 use scattering::{Basis, Geometry, Model};
 
 use super::Axes;
-use crate::export::{Bands, ExportError, even, quantile};
+use crate::export::{Bands, ExportError, Spread, even};
 
-/// Directions in which table and material are compared.
-const SAMPLES: usize = 4096;
 /// Steps of θ_i, θ_s and φ_s in degrees that are tried, from coarse to fine.
 const LADDER: [[f64; 3]; 6] = [
     [16.0, 17.0, 20.0],
@@ -20,20 +17,9 @@ const LADDER: [[f64; 3]; 6] = [
 /// Largest θ_i, θ_s and φ_s of a chosen grid, degrees.
 const ENDS: [f64; 3] = [80.0, 85.0, 180.0];
 
-/// Relative errors of f by linear interpolation in the three angles, over all wavelengths.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread {
-    /// Half of the light has a smaller one.
-    pub median: f64,
-    /// 95 % of the light has.
-    pub most: f64,
-}
-
 /// The error of linear interpolation between the nodes of `axes`.
 pub fn spread(bands: &Bands, axes: &Axes) -> Spread {
-    let samples = (0..SAMPLES).into_par_iter().flat_map_iter(|n| sample(bands, axes, n));
-    let samples: Vec<(f64, f64)> = samples.collect();
-    Spread { median: quantile(samples.clone(), 0.5), most: quantile(samples, 0.95) }
+    Spread::of(|n| sample(bands, axes, n))
 }
 
 /// The coarsest grid of a ladder on which 95 % of the light has an error below `tolerance`.

@@ -14,6 +14,7 @@
 //! J. Dupuy and W. Jakob, *An Adaptive Parameterization for Efficient Material Acquisition and
 //! Rendering*, ACM Trans. Graph. 37(6), 274 (2018).
 
+mod spread;
 mod table;
 
 use std::{
@@ -30,6 +31,7 @@ use spectra::{
     RgbSpace,
 };
 
+pub use spread::{choose_size, spread};
 pub use table::Table;
 
 use super::axes::lifted;
@@ -110,11 +112,6 @@ pub fn write<W: Write>(
     out: W,
     control: &Control,
 ) -> Result<W, ExportError> {
-    if size.phi_i == 1 && !bands.is_isotropic() {
-        let problem = "the matrices change when the sample is turned: give the azimuths of the \
-                       viewer too, such as 37x20x48";
-        return Err(ExportError::refused("grid", problem));
-    }
     let job = Job::new(bands, channels, size)?;
     let mut file = Writer::begin(out, job.fields(description))?;
     file.bytes(description.as_bytes())?;
@@ -158,6 +155,23 @@ struct Images {
     luminance: Vec<f32>,
 }
 
+/// A pair of directions by the viewer and the half vector.
+struct Node {
+    to_viewer: DVec3,
+    to_light: DVec3,
+    m: DVec3,
+    /// The coordinate of the half vector's polar angle.
+    u: f64,
+}
+
+impl Node {
+    /// dω of the light per area of the unit square.
+    fn solid_angle(&self) -> f64 {
+        let sin = self.m.x.hypot(self.m.y);
+        2.0 * PI * PI * self.u * sin * 4.0 * self.to_viewer.dot(self.m).max(0.0)
+    }
+}
+
 struct Job<'a> {
     bands: &'a Bands,
     size: Size,
@@ -170,6 +184,11 @@ struct Job<'a> {
 
 impl<'a> Job<'a> {
     fn new(bands: &'a Bands, channels: Channels, size: Size) -> Result<Self, ExportError> {
+        if size.phi_i == 1 && !bands.is_isotropic() {
+            let problem = "the matrices change when the sample is turned: give the azimuths of the \
+                           viewer too, such as 37x20x48";
+            return Err(ExportError::refused("grid", problem));
+        }
         let part = |i: usize, n: usize| i as f64 / (n.max(2) - 1) as f64;
         let theta = |i| LAST_THETA.to_radians() * f64::powf(part(i, size.theta_i), 0.8);
         let phi = |i| if size.phi_i == 1 { 0.0 } else { TAU * part(i, size.phi_i) - PI };
@@ -217,7 +236,6 @@ impl<'a> Job<'a> {
     fn images(&self, [phi, theta]: [usize; 2], control: &Control) -> Result<Images, ExportError> {
         let side = self.size.side;
         let pixels = side * side;
-        let viewer = direction(self.thetas[theta].max(AWAY), self.phis[phi]);
         let mut values = vec![0.0; self.channels() * pixels];
         let mut luminance = vec![0.0; pixels];
         for y in 0..side {
@@ -225,30 +243,43 @@ impl<'a> Job<'a> {
                 return Err(ExportError::Cancelled);
             }
             for x in 0..side {
-                let [u, w] = [x, y].map(|i| i as f64 / (side - 1) as f64);
-                let theta_m = (FRAC_PI_2 * u * u).max(AWAY);
-                let turned = if self.size.phi_i == 1 { self.phis[phi] } else { 0.0 };
-                let m = direction(theta_m, (2.0 * w - 1.0) * PI + turned);
-                let light = 2.0 * viewer.dot(m) * m - viewer;
-                let (asked, seen) = (lifted(light), lifted(viewer));
-                let spectrum: Vec<f64> =
-                    self.bands.unpolarized(asked, seen).map(|f| f * asked.z).collect();
-                if let Some(bad) = spectrum.iter().position(|f| !f.is_finite()) {
-                    return Err(not_finite(asked, seen, self.bands.nm()[bad]));
-                }
+                let node = self.node([phi, theta, y, x]);
+                let spectrum = self.seen(&node)?;
                 let at = y * side + x;
-                let scale = 4.0 / f64::from(table::linear(&self.ndf, u));
+                let scale = 4.0 / f64::from(table::linear(&self.ndf, node.u));
                 for (k, value) in self.colours(&spectrum).enumerate() {
                     values[k * pixels + at] = (value * scale) as f32;
                 }
-                if light.z > 0.0 {
+                if node.to_light.z > 0.0 {
                     let mean = spectrum.iter().sum::<f64>() / spectrum.len() as f64;
-                    let measure = 2.0 * PI * PI * u * theta_m.sin() * 4.0 * viewer.dot(m).max(0.0);
-                    luminance[at] = (mean * measure + LUMINANCE_FLOOR) as f32;
+                    luminance[at] = (mean * node.solid_angle() + LUMINANCE_FLOOR) as f32;
                 }
             }
         }
         Ok(Images { values, luminance })
+    }
+
+    fn node(&self, [phi, theta, y, x]: [usize; 4]) -> Node {
+        let [u, w] = [x, y].map(|i| i as f64 / (self.size.side - 1) as f64);
+        self.at(self.thetas[theta], self.phis[phi], u, w)
+    }
+
+    /// The viewer at `theta` and `phi`, and the half vector at (u, w) of its image.
+    fn at(&self, theta: f64, phi: f64, u: f64, w: f64) -> Node {
+        let to_viewer = direction(theta.max(AWAY), phi);
+        let turned = if self.size.phi_i == 1 { phi } else { 0.0 };
+        let m = direction((FRAC_PI_2 * u * u).max(AWAY), (2.0 * w - 1.0) * PI + turned);
+        Node { to_viewer, m, to_light: 2.0 * to_viewer.dot(m) * m - to_viewer, u }
+    }
+
+    /// f cos θ of the light at every wavelength.
+    fn seen(&self, node: &Node) -> Result<Vec<f64>, ExportError> {
+        let (asked, seen) = (lifted(node.to_light), lifted(node.to_viewer));
+        let spectrum: Vec<f64> = self.bands.unpolarized(asked, seen).map(|f| f * asked.z).collect();
+        match spectrum.iter().position(|f| !f.is_finite()) {
+            Some(bad) => Err(not_finite(asked, seen, self.bands.nm()[bad])),
+            None => Ok(spectrum),
+        }
     }
 
     fn colours<'s>(&self, spectrum: &'s [f64]) -> Box<dyn Iterator<Item = f64> + 's> {

@@ -70,40 +70,61 @@ impl Table {
     /// f cos θ of the light (1/sr) in every channel, for unit vectors away from the surface; zero
     /// below the horizon.
     pub fn eval(&self, to_light: DVec3, to_viewer: DVec3) -> Vec<f64> {
-        let Some(m) = (to_light + to_viewer).try_normalize() else {
-            return vec![0.0; self.channels];
-        };
+        let mut all = vec![0.0; self.channels];
+        let grid = Grid { theta_i: &self.theta_i, phi_i: &self.phi_i, side: self.side };
+        let Some((u, nodes)) = grid.around(to_light, to_viewer) else { return all };
+        let scale = f64::from(linear(&self.ndf, u)) / 4.0;
+        for ([p, t, y, x], weight) in nodes {
+            for (channel, sum) in all.iter_mut().enumerate() {
+                let image = (p * self.theta_i.len() + t) * self.channels + channel;
+                let at = (image * self.side + y) * self.side + x;
+                *sum += weight * scale * f64::from(self.values[at]);
+            }
+        }
+        all
+    }
+}
+
+/// Where the nodes of a table are: viewers, and pixels on each side of an image.
+pub(super) struct Grid<'a> {
+    pub(super) theta_i: &'a [f64],
+    pub(super) phi_i: &'a [f64],
+    pub(super) side: usize,
+}
+
+impl Grid<'_> {
+    /// The coordinate of the half vector's polar angle, and the nodes (φ_i, θ_i, y, x) around a pair
+    /// of directions with their weights; nothing below the horizon.
+    pub(super) fn around(
+        &self,
+        to_light: DVec3,
+        to_viewer: DVec3,
+    ) -> Option<(f64, impl Iterator<Item = ([usize; 4], f64)> + use<>)> {
+        let m = (to_light + to_viewer).try_normalize()?;
         if to_light.z <= 0.0 || to_viewer.z <= 0.0 {
-            return vec![0.0; self.channels];
+            return None;
         }
         let polar = |w: DVec3| w.x.hypot(w.y).atan2(w.z);
         let (phi_i, phi_m) = (to_viewer.y.atan2(to_viewer.x), m.y.atan2(m.x));
         let turned = if self.phi_i.len() == 1 { phi_m - phi_i } else { phi_m };
         let u = (polar(m) / FRAC_PI_2).sqrt();
         let w = ((turned + PI) / TAU).rem_euclid(1.0);
-        let scale = f64::from(linear(&self.ndf, u)) / 4.0;
-        let viewers = [place(&self.phi_i, phi_i), place(&self.theta_i, polar(to_viewer))];
         let last = (self.side - 1) as f64;
-        let pixels = [w, u].map(|x| {
+        let pixel = |x: f64| {
             let at = (x * last).clamp(0.0, last);
             let low = (at as usize).min(self.side - 2);
             (low, low + 1, at - low as f64)
-        });
-        let mut all = vec![0.0; self.channels];
-        for bits in 0..16_usize {
-            let pick = |bit: usize, (low, high, part): (usize, usize, f64)| {
-                if bits >> bit & 1 == 1 { (high, part) } else { (low, 1.0 - part) }
-            };
-            let [p, t] = [pick(0, viewers[0]), pick(1, viewers[1])];
-            let [y, x] = [pick(2, pixels[0]), pick(3, pixels[1])];
-            let weight = p.1 * t.1 * y.1 * x.1 * scale;
-            for (channel, sum) in all.iter_mut().enumerate().filter(|_| weight > 0.0) {
-                let image = (p.0 * self.theta_i.len() + t.0) * self.channels + channel;
-                let at = (image * self.side + y.0) * self.side + x.0;
-                *sum += weight * f64::from(self.values[at]);
-            }
-        }
-        all
+        };
+        let axes =
+            [place(self.phi_i, phi_i), place(self.theta_i, polar(to_viewer)), pixel(w), pixel(u)];
+        let node = move |bits: usize| {
+            let picked: [(usize, f64); 4] = std::array::from_fn(|k| {
+                let (low, high, part) = axes[k];
+                if bits >> k & 1 == 1 { (high, part) } else { (low, 1.0 - part) }
+            });
+            (picked.map(|side| side.0), picked.iter().map(|side| side.1).product::<f64>())
+        };
+        Some((u, (0..16).map(node).filter(|(_, weight)| *weight > 0.0)))
     }
 }
 
