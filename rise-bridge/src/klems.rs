@@ -10,7 +10,7 @@
 //! ASHRAE Trans. 100(1) (1994), for the patches.
 
 use std::{
-    f64::consts::{PI, TAU},
+    f64::consts::{FRAC_PI_2, PI, TAU},
     io::Write,
 };
 
@@ -22,7 +22,7 @@ use mist_engine::{
 use rayon::prelude::*;
 use spectra::{ColourPlan, Grid};
 
-use crate::export::{Bands, ExportError};
+use crate::export::{Bands, ExportError, Spread, even};
 
 /// Upper polar angle (degrees) and number of patches of every ring of the full basis.
 const RINGS: [(f64, usize); 9] = [
@@ -100,11 +100,7 @@ pub fn write<W: Write>(
                        that is the same on both sides has no room for it";
         return Err(ExportError::refused("material", problem));
     }
-    let wrong =
-        |error: &dyn std::fmt::Display| ExportError::refused("wavelengths", error.to_string());
-    let grid = Grid::new(bands.nm()).map_err(|error| wrong(&error))?;
-    let names = ColourNames { illuminant: Some("E".into()), ..ColourNames::default() };
-    let plan = ColourPlan::new(&grid, names.settings(None)?).map_err(|error| wrong(&error))?;
+    let plan = equal_energy(bands)?;
     let patches = patches();
     let mut columns = Vec::with_capacity(patches.len());
     for (k, from) in patches.iter().enumerate() {
@@ -128,6 +124,54 @@ pub fn write<W: Write>(
     out.write_all(b"</Layer>\n</Optical>\n</WindowElement>\n")?;
     out.flush()?;
     Ok(out)
+}
+
+/// How far the luminous f of a patch is from that of directions in it: what a reader that takes
+/// patches as they are is wrong by.
+///
+/// # Errors
+///
+/// For wavelengths of which no colour comes.
+pub fn spread(bands: &Bands) -> Result<Spread, ExportError> {
+    let plan = equal_energy(bands)?;
+    let patches = patches();
+    let hemisphere = Patch { lower: 0.0, upper: FRAC_PI_2, phi: 0.0, width: TAU };
+    Ok(Spread::of(|n| {
+        let [a, b, c] = even(n);
+        // Steps of the golden section for the fourth axis.
+        let d = (n as f64 * 0.618_033_988_749_894_9).fract();
+        let (light, leaving) = (hemisphere.direction(a, b), hemisphere.direction(c, d));
+        let middle = patches[containing(light)].middle();
+        let patch = mean(bands, &plan, middle, &patches[containing(leaving)]);
+        let spectrum: Vec<f64> = bands.unpolarized(light, leaving).collect();
+        let (Ok(patch), exact) = (patch, plan.unpolarized(&spectrum).y) else { return Vec::new() };
+        // Directions are even in projected solid angle.
+        let compared = (exact > 0.0).then(|| ((patch[1] - exact).abs() / exact, exact));
+        compared.into_iter().collect()
+    }))
+}
+
+/// The number of the patch with a direction.
+fn containing(direction: DVec3) -> usize {
+    let theta = direction.x.hypot(direction.y).atan2(direction.z).to_degrees();
+    let phi = direction.y.atan2(direction.x).rem_euclid(TAU);
+    let mut first = 0;
+    for (upper, count) in RINGS {
+        if theta < upper {
+            return first + (phi / TAU * count as f64).round() as usize % count;
+        }
+        first += count;
+    }
+    first - 1
+}
+
+/// CIE XYZ under equal energy.
+fn equal_energy(bands: &Bands) -> Result<ColourPlan, ExportError> {
+    let wrong =
+        |error: &dyn std::fmt::Display| ExportError::refused("wavelengths", error.to_string());
+    let grid = Grid::new(bands.nm()).map_err(|error| wrong(&error))?;
+    let names = ColourNames { illuminant: Some("E".into()), ..ColourNames::default() };
+    ColourPlan::new(&grid, names.settings(None)?).map_err(|error| wrong(&error))
 }
 
 /// XYZ of the mean over the patch `to`.
@@ -300,6 +344,34 @@ mod tests {
             let most = column.iter().copied().fold(0.0, f64::max);
             assert_eq!(column[from], most, "{from}");
         }
+    }
+
+    #[test]
+    fn every_patch_contains_its_middle_and_directions_in_it() {
+        for (k, patch) in patches().iter().enumerate() {
+            assert_eq!(containing(patch.middle()), k);
+            for (u, w) in [(0.01, 0.01), (0.01, 0.99), (0.99, 0.01), (0.99, 0.99)] {
+                assert_eq!(containing(patch.direction(u, w)), k, "{u} {w}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_stated_error_is_none_for_a_diffuser_and_grows_as_the_lobe_narrows() {
+        let of = |json: &str| {
+            let material = Material::from_json(json).unwrap().prepare(Mode::Sound, None).unwrap();
+            spread(&Bands::new(&material, &[400.0, 550.0, 700.0]).unwrap()).unwrap()
+        };
+        let facets = |slope: f64| {
+            of(&format!(
+                r#"{{"model": "Facet_BRDF_Model", "parameters": {{"substrate": "(0.7,2.4)",
+                "sdf": "Gaussian_Slope_Distribution_Function", "sdf.s": {slope}}}}}"#
+            ))
+        };
+        let white = of(r#"{"model": "Lambertian_BRDF_Model", "parameters": {}}"#);
+        assert!(white.most < 1e-12, "{white:?}");
+        let (wide, narrow) = (facets(0.5), facets(0.1));
+        assert!(wide.median > 0.01 && 2.0 * wide.median < narrow.median, "{wide:?} {narrow:?}");
     }
 
     #[test]

@@ -231,3 +231,43 @@ fn a_bsdf_gives_the_material_back_in_spectra_and_in_colours() {
         assert!(difference < 0.01 * sum, "{channels:?}: {}", difference / sum);
     }
 }
+
+#[test]
+fn the_error_of_a_bsdf_is_that_of_the_file_that_is_read_back() {
+    let bands = Bands::new(&cases()[0].material(), &NM).unwrap();
+    let size = Size::parse("16x24").unwrap();
+    let stated = bsdf::spread(&bands, Channels::Spectra, size).unwrap();
+    let file = bsdf::write(&bands, Channels::Spectra, size, "{}", Vec::new(), &Control::default());
+    let table = bsdf::Table::read(Cursor::new(file.unwrap())).unwrap();
+    let direction = |sin2: f64, phi: f64| {
+        let sin = sin2.sqrt();
+        DVec3::new(sin * phi.cos(), sin * phi.sin(), (1.0 - sin2).sqrt())
+    };
+    // Even over projected solid angles of light and viewer, another way than the statement's.
+    let (mut all, mut worse) = ([0.0, 0.0], [0.0, 0.0]);
+    for k in 0..200_000 {
+        let [a, b, c] = [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|x| (f64::from(k) * x).fract());
+        let (l, v) = (direction(a, 6.283_185 * b), direction(0.998 * c, 0.0));
+        let exact = bands.unpolarized(l, v).next().unwrap();
+        let error = (table.eval(l, v)[0] / (exact * l.z) - 1.0).abs();
+        for (k, bound) in [stated.median, stated.most].into_iter().enumerate() {
+            all[k] += exact;
+            worse[k] += if error > bound { exact } else { 0.0 };
+        }
+    }
+    let [half, twentieth] = [worse[0] / all[0], worse[1] / all[1]];
+    // 4096 directions tell parts of the light to a few hundredths.
+    assert!((half - 0.5).abs() < 0.08, "{half} of the light is worse than the median {stated:?}");
+    assert!((twentieth - 0.05).abs() < 0.03, "{twentieth} is worse than 95 %, {stated:?}");
+}
+
+#[test]
+fn the_size_of_a_bsdf_is_chosen_for_an_error() {
+    let bands = Bands::new(&cases()[0].material(), &NM).unwrap();
+    let (size, found) = bsdf::choose_size(&bands, Channels::Spectra, 0.02).unwrap();
+    assert!(found.most <= 0.02 && size.side <= 128, "{size:?} {found:?}");
+    let smaller = Size { theta_i: 16, side: 32, ..size };
+    assert!(bsdf::spread(&bands, Channels::Spectra, smaller).unwrap().most > found.most);
+    let refused = bsdf::choose_size(&bands, Channels::Spectra, 1e-6).unwrap_err().to_string();
+    assert!(refused.contains("the largest size, 1x64x512"), "{refused}");
+}
