@@ -26,6 +26,7 @@ pub mod shape;
 mod frame;
 mod path;
 mod picture;
+mod points;
 mod random;
 mod response;
 mod spectral;
@@ -41,6 +42,7 @@ use scattering::{Basis, Model, Side, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Xyz};
 
 pub use picture::{Polarization, brightest, picture, side_by_side};
+pub use points::{DistantLamps, SurfacePoint, shade};
 pub use shape::Shape;
 pub use spectral::spectral_exr;
 
@@ -126,18 +128,8 @@ pub fn render(
     settings: ColourSettings,
     control: &Control,
 ) -> Result<Film, MaterialError> {
-    let refused =
-        |part: &str, problem: String| MaterialError::Request { part: part.into(), problem };
-    let grid = Grid::new(wavelengths).map_err(|e| refused("lambda", e.to_string()))?;
-    let plan =
-        ColourPlan::new(&grid, settings).map_err(|e| refused("adaptation", e.to_string()))?;
-    let models = wavelengths
-        .par_iter()
-        .map(|nm| Ok(material.at(nm / 1000.0).model()?.0))
-        .collect::<Result<Vec<Model>, MaterialError>>()?;
-    if models.iter().any(|model| model.common().side != Side::DownUp) {
-        return Err(refused("type", "a body is seen from outside: type = 0".into()));
-    }
+    let plan = plan(wavelengths, settings)?;
+    let models = models(material, wavelengths)?;
     let light = Stokes(scene.light);
     let responses = responses(scene, &models, &plan);
     let [width, height] = scene.size;
@@ -164,6 +156,27 @@ pub fn render(
         })
         .collect::<Result<(Vec<_>, Vec<Vec<f32>>), MaterialError>>()?;
     Ok(Film { size: scene.size, pixels: rows.0.concat(), spectra: rows.1.concat() })
+}
+
+/// How spectra become colours.
+fn plan(wavelengths: &[f64], settings: ColourSettings) -> Result<ColourPlan, MaterialError> {
+    let refused =
+        |part: &str, problem: String| MaterialError::Request { part: part.into(), problem };
+    let grid = Grid::new(wavelengths).map_err(|e| refused("lambda", e.to_string()))?;
+    ColourPlan::new(&grid, settings).map_err(|e| refused("adaptation", e.to_string()))
+}
+
+/// The models at all wavelengths (nm), which must be those of a body seen from outside.
+fn models(material: &Prepared, wavelengths: &[f64]) -> Result<Vec<Model>, MaterialError> {
+    let models = wavelengths
+        .par_iter()
+        .map(|nm| Ok(material.at(nm / 1000.0).model()?.0))
+        .collect::<Result<Vec<Model>, MaterialError>>()?;
+    if models.iter().any(|model| model.common().side != Side::DownUp) {
+        let problem = "a body is seen from outside: type = 0".into();
+        return Err(MaterialError::Request { part: "type".into(), problem });
+    }
+    Ok(models)
 }
 
 /// For each lamp in one direction what the camera sees of it, by the normal.

@@ -9,6 +9,7 @@ use spectra::Xyz;
 use super::{
     LampBasis, Scene,
     frame::Frame,
+    points::{DistantLamps, SurfacePoint},
     random::Random,
     response::Response,
     shape::{Hit, Ray, leaving},
@@ -20,6 +21,17 @@ const HALF_VIEW: f64 = 1.0;
 /// Where its rays start.
 const FAR: f64 = 10.0;
 const TO_CAMERA: DVec3 = DVec3::Z;
+
+/// How the camera sees a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) to_camera: DVec3,
+    /// Unit vector across the beam that is horizontal in the picture: s of what the camera sees.
+    pub(super) horizontal: DVec3,
+}
+
+/// From far away, along −z.
+const FAR_AWAY: View = View { to_camera: TO_CAMERA, horizontal: DVec3::X };
 
 /// One way of light.
 #[derive(Debug)]
@@ -75,8 +87,26 @@ impl Row {
         let mut row = Self::default();
         for (pixel, normal) in normals.iter().enumerate() {
             let frame = Frame::of(*normal);
-            let lamp = lamp_turn(scene, &frame, toward);
-            row.push(&Seen { frame: &frame, pixel, weight: 1.0 }, 1.0, toward, None, Some(lamp));
+            let seen = Seen { frame: &frame, pixel, weight: 1.0, view: FAR_AWAY };
+            let lamp = lamp_turn(scene.light_basis, &frame, toward);
+            row.push(&seen, 1.0, toward, None, Some(lamp));
+        }
+        row
+    }
+
+    /// One way from each lamp that reaches a point; the pixels are the numbers of the points.
+    pub(super) fn over_points(points: &[SurfacePoint], lamps: &DistantLamps<'_>) -> Self {
+        let mut row = Self::default();
+        for (pixel, point) in points.iter().enumerate() {
+            let frame = Frame::of(point.normal);
+            let seen = Seen { frame: &frame, pixel, weight: 1.0, view: point.view() };
+            for (toward, irradiance) in lamps.toward.iter().zip(&point.irradiances) {
+                let weight = irradiance * toward.dot(point.normal);
+                if weight > 0.0 {
+                    let lamp = lamp_turn(lamps.light_basis, &frame, *toward);
+                    row.push(&seen, weight, *toward, None, Some(lamp));
+                }
+            }
         }
         row
     }
@@ -96,7 +126,8 @@ impl Row {
         let ray = Ray { from: DVec3::new(across, up, FAR), along: -TO_CAMERA };
         let Some(point) = scene.shape.hit(ray).and_then(Point::new) else { return };
         let Point { hit, frame } = &point;
-        let seen = Seen { frame, pixel: x, weight: PI / scene.samples as f64 };
+        let weight = PI / scene.samples as f64;
+        let seen = Seen { frame, pixel: x, weight, view: FAR_AWAY };
         for light in lit(scene, &point, random, 1) {
             let response = responses.get(light.lamp).and_then(Option::as_ref);
             if let Some(value) = response.and_then(|response| response.at(frame.normal)) {
@@ -104,7 +135,7 @@ impl Row {
                 self.known.push((x, value.map(|xyz| xyz * weight)));
                 continue;
             }
-            let lamp = lamp_turn(scene, frame, light.toward);
+            let lamp = lamp_turn(scene.light_basis, frame, light.toward);
             self.push(&seen, light.weight, light.toward, None, Some(lamp));
         }
         if scene.sky > 0.0 || scene.bounce {
@@ -130,7 +161,7 @@ impl Row {
                     let first = self.pair(&other.frame, light.toward, -toward);
                     let leaving = other.frame.s(-toward, light.toward);
                     let turn = Turn::between(-toward, leaving, frame.s(-toward, toward));
-                    let lamp = lamp_turn(scene, &other.frame, light.toward);
+                    let lamp = lamp_turn(scene.light_basis, &other.frame, light.toward);
                     self.push(seen, PI * light.weight, toward, Some((first, turn)), Some(lamp));
                 }
             }
@@ -147,8 +178,9 @@ impl Row {
         before: Option<(usize, Turn)>,
         lamp: Option<Turn>,
     ) {
-        let last = self.pair(seen.frame, toward, TO_CAMERA);
-        let camera = Turn::between(TO_CAMERA, seen.frame.s(TO_CAMERA, toward), DVec3::X);
+        let View { to_camera, horizontal } = seen.view;
+        let last = self.pair(seen.frame, toward, to_camera);
+        let camera = Turn::between(to_camera, seen.frame.s(to_camera, toward), horizontal);
         let weight = seen.weight * weight;
         self.paths.push(Path { pixel: seen.pixel, weight, last, before, lamp, camera });
     }
@@ -164,6 +196,7 @@ struct Seen<'a> {
     frame: &'a Frame,
     pixel: usize,
     weight: f64,
+    view: View,
 }
 
 /// A direction from which a lamp lights a point, and E cos θ_i there.
@@ -175,8 +208,8 @@ struct Light {
 }
 
 /// From the basis of the lamps to that of the plane of incidence of light from `toward`.
-fn lamp_turn(scene: &Scene, frame: &Frame, toward: DVec3) -> Turn {
-    match scene.light_basis {
+fn lamp_turn(basis: LampBasis, frame: &Frame, toward: DVec3) -> Turn {
+    match basis {
         LampBasis::PlaneOfIncidence => Turn::NONE,
         LampBasis::Horizontal => {
             let k = -toward;
