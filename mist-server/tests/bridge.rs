@@ -106,3 +106,48 @@ fn renders_of_three_wavelengths_become_one_picture() {
     assert!(picture.values().iter().all(|x| (x - 0.25).abs() < 1e-6), "{picture:?}");
     assert!(dir.path().join("made/ball_bands.png").exists());
 }
+
+/// A plane that faces the camera, under a lamp at the camera.
+const PLANE: &str = "film\n{\n\twidth\t4\n\theight\t3\n}\npinhole_camera\n{\n\tlocation\t0 0 9\n\
+    \tlookat\t0 0 0\n\tup\t0 1 0\n\tfov\t1\n}\ndirectional_light\n{\n\tname\tkey\n\tpower\t2\n\
+    \tcolor\t1 1 1\n\tdirection\t0 0 1\n}\n";
+
+#[test]
+fn a_deferred_picture_is_shaded_from_renders_of_geometry() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("plane.RISEscene"), format!("{SCENE}{PLANE}")).unwrap();
+    for (name, value) in [("one.exr", 1.0), ("zero.exr", 0.0)] {
+        let image = Image::new([8, 6], 3, vec![value; 144], Encoding::Linear).unwrap();
+        fs::write(dir.path().join(name), image.write(Format::Exr).unwrap()).unwrap();
+    }
+    let rise = renderer(
+        dir.path(),
+        "case $1 in *_pz.RISEscene|*_lamp0.RISEscene) f=one;; *) f=zero;; esac\n\
+         cp ../$f.exr ${1%.RISEscene}.exr",
+    );
+    let words = "bridge plane.RISEscene --out made --deferred --filter linear:30 --wavelengths \
+                 450,550,650";
+    let run = |more: &str| {
+        let mut command = Command::cargo_bin("mist").unwrap();
+        command.current_dir(dir.path()).env("RISE_BIN", &rise).args(words.split_whitespace());
+        command.args(more.split_whitespace()).output().unwrap()
+    };
+    let planned = run("");
+    assert!(planned.status.success(), "{planned:?}");
+    assert!(String::from_utf8_lossy(&planned.stdout).contains("plane_d_ball_nx.RISEscene"));
+    assert_eq!(run("--stack").status.code(), Some(2), "there are no renders yet");
+    let done = run("--render");
+    assert!(done.status.success(), "{done:?}");
+    let picture = |name: &str| {
+        let image = Image::read(&fs::read(dir.path().join("made").join(name)).unwrap()).unwrap();
+        assert_eq!(image.size(), [4, 3]);
+        image.values().to_vec()
+    };
+    let white = 2.0 * 0.5 / std::f64::consts::PI;
+    // 32-bit numbers.
+    let near = |x: &f32, y: f64| (f64::from(*x) - y).abs() < 1e-6;
+    assert!(picture("plane_deferred.exr").iter().all(|x| near(x, white)));
+    assert!(picture("plane_deferred_filter.exr").iter().all(|x| near(x, 0.5 * white)));
+    assert_eq!(run("--stack").status.code(), Some(0));
+    assert_eq!(run("--bands").status.code(), Some(2), "one or the other");
+}

@@ -17,6 +17,7 @@ use rise_bridge::{
 
 use super::{
     material::{not_exported, refused},
+    preview::Basis,
     print,
     run::pool,
     source::Source,
@@ -28,6 +29,7 @@ use crate::{
     progress::Progress,
 };
 
+mod deferred;
 mod render;
 
 /// Compute the materials of a RISE scene and write the scene with their tables.
@@ -41,7 +43,9 @@ mod render;
 Examples:
   mist bridge ball.RISEscene --out ball
   mist bridge ball.RISEscene --derive --bands --wavelengths 400:10:700 --out ball
-  RISE_BIN=/opt/rise/bin/rise mist bridge ball.RISEscene --out ball --render")]
+  RISE_BIN=/opt/rise/bin/rise mist bridge ball.RISEscene --out ball --render
+  mist bridge ball.RISEscene --deferred --filter linear:90 --out ball --render")]
+#[command(group = clap::ArgGroup::new("renders").args(["bands", "deferred"]))]
 pub(super) struct Args {
     /// The scene.
     scene: PathBuf,
@@ -60,12 +64,35 @@ pub(super) struct Args {
     /// Write tables and scenes with three wavelengths in the place of red, green and blue too.
     #[arg(long)]
     bands: bool,
+    /// Let RISE render normals and shadows only, and shade them here: any azimuth, polarization and
+    /// spectrum, in the direct light of the scene's directional lights.
+    #[arg(long)]
+    deferred: bool,
+    /// Pixels of a render per pixel of that picture, in each direction.
+    #[arg(long, value_name = "N", default_value_t = 2, requires = "deferred")]
+    finer: usize,
+    /// That picture behind a filter too: linear:ANGLE (degrees from the horizontal,
+    /// counter-clockwise), left or right.
+    #[arg(long, default_value = "none", requires = "deferred")]
+    filter: String,
+    /// Stokes vector of the lamps of that picture; 1,0.2,0,0 is 60 % perpendicular.
+    #[arg(
+        long,
+        default_value = "1,0,0,0",
+        value_name = "I,Q,U,V",
+        allow_hyphen_values = true,
+        requires = "deferred"
+    )]
+    incident: String,
+    /// Where that vector's Q > 0 is: perpendicular to the plane of incidence, or horizontal.
+    #[arg(long, value_enum, default_value_t, value_name = "BASIS", requires = "deferred")]
+    incident_basis: Basis,
     /// Render the scenes with the program that RISE_BIN names.
     #[arg(long)]
     render: bool,
-    /// Make one picture in colours of the pictures of --bands that lie in --out; --render does so
-    /// by itself.
-    #[arg(long, requires = "bands", conflicts_with = "render")]
+    /// Make one picture in colours of the renders of --bands or --deferred that lie in --out;
+    /// --render does so by itself.
+    #[arg(long, requires = "renders", conflicts_with = "render")]
     stack: bool,
     /// The light of that picture: CIE name, colour temperature or D(temperature).
     #[arg(long, default_value = "D65", value_name = "NAME")]
@@ -78,6 +105,10 @@ pub(super) struct Args {
 /// Makes the files, and the pictures if they are wanted.
 pub(super) fn bridge(args: &Args) -> Result<(), Stop> {
     let source = Source::read(&args.scene)?;
+    if args.deferred { deferred::deferred(args, &source) } else { tables(args, &source) }
+}
+
+fn tables(args: &Args, source: &Source) -> Result<(), Stop> {
     if !(3..=361).contains(&args.nodes) {
         return Err(Stop::Refused(format!("--nodes is from 3 to 361, not {}", args.nodes)));
     }
@@ -103,7 +134,7 @@ pub(super) fn bridge(args: &Args) -> Result<(), Stop> {
         let renderer = renderer.as_ref().expect("there is one for every scene");
         let text = String::from_utf8_lossy(&made.files[scene]).into_owned();
         let images = product::images(&text).map_err(not_exported)?;
-        print(&renderer.render(&args.out, scene, &images)?)?;
+        print(&renderer.render(&args.out, scene, &images, render::seen)?)?;
     }
     if args.bands && (args.render || args.stack) {
         let stem = format!("{}_bands", source.stem());

@@ -112,12 +112,21 @@ pub(super) struct Args {
 
 /// The basis of the lamps' Stokes vector.
 #[derive(Clone, Copy, Default, clap::ValueEnum)]
-enum Basis {
+pub(super) enum Basis {
     /// s is perpendicular to the plane of incidence at every point.
     #[default]
     Plane,
     /// s is horizontal.
     Horizontal,
+}
+
+impl From<Basis> for LampBasis {
+    fn from(basis: Basis) -> Self {
+        match basis {
+            Basis::Plane => Self::PlaneOfIncidence,
+            Basis::Horizontal => Self::Horizontal,
+        }
+    }
 }
 
 /// Most pixels times samples: a picture of 8192² with 16 samples.
@@ -197,10 +206,7 @@ impl Args {
             shape: self.body()?,
             lamps: self.lamp.iter().map(|text| lamp(text)).collect::<Result<_, _>>()?,
             light: query::stokes(&self.incident).map_err(refused)?,
-            light_basis: match self.incident_basis {
-                Basis::Plane => LampBasis::PlaneOfIncidence,
-                Basis::Horizontal => LampBasis::Horizontal,
-            },
+            light_basis: self.incident_basis.into(),
             sky: self.sky,
             bounce: self.bounce,
             size,
@@ -248,26 +254,23 @@ impl Args {
     }
 
     fn polarization(&self) -> Result<Polarization, Stop> {
-        if self.dolp {
-            return Ok(Polarization::Degree);
-        }
-        match self.filter.as_str() {
-            "none" => return Ok(Polarization::All),
-            "left" => return Ok(Polarization::Left),
-            "right" => return Ok(Polarization::Right),
-            _ => {}
-        }
-        let angle = self.filter.strip_prefix("linear:").and_then(|text| text.parse::<f64>().ok());
-        angle
-            .filter(|angle| angle.is_finite())
-            .map(|a| Polarization::Linear(a.to_radians()))
-            .ok_or_else(|| {
-                Stop::Refused(format!(
-                    "--filter is none, linear:ANGLE, left or right, not {}",
-                    self.filter
-                ))
-            })
+        if self.dolp { Ok(Polarization::Degree) } else { filter(&self.filter) }
     }
+}
+
+/// What `--filter` names.
+pub(super) fn filter(text: &str) -> Result<Polarization, Stop> {
+    match text {
+        "none" => return Ok(Polarization::All),
+        "left" => return Ok(Polarization::Left),
+        "right" => return Ok(Polarization::Right),
+        _ => {}
+    }
+    let angle = text.strip_prefix("linear:").and_then(|text| text.parse::<f64>().ok());
+    let angle = angle.filter(|angle| angle.is_finite());
+    angle.map(|a| Polarization::Linear(a.to_radians())).ok_or_else(|| {
+        Stop::Refused(format!("--filter is none, linear:ANGLE, left or right, not {text}"))
+    })
 }
 
 /// `POLAR,AZIMUTH[,RADIUS[,E]]`

@@ -16,15 +16,21 @@ use rise_bridge::image::{Format, Image};
 
 use super::Stop;
 
-/// The picture at `path`, which must show something.
-pub(super) fn seen(path: &Path) -> Result<Image, String> {
+/// The picture at `path`, all of whose values are numbers.
+pub(super) fn read(path: &Path) -> Result<Image, String> {
     let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let image = Image::read(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;
-    if image.values().iter().all(|value| *value == 0.0) {
-        return Err(format!("{} is black", path.display()));
-    }
     if image.values().iter().any(|value| !value.is_finite()) {
         return Err(format!("{} has values that are no numbers", path.display()));
+    }
+    Ok(image)
+}
+
+/// The same, which must show something.
+pub(super) fn seen(path: &Path) -> Result<Image, String> {
+    let image = read(path)?;
+    if image.values().iter().all(|value| *value == 0.0) {
+        return Err(format!("{} is black", path.display()));
     }
     Ok(image)
 }
@@ -59,12 +65,13 @@ impl Renderer {
         Ok(Self { program })
     }
 
-    /// Renders `scene` in `folder`; all `images` must be new afterwards.
+    /// Renders `scene` in `folder`; all `images` must be new afterwards, and `judge` takes them.
     pub(super) fn render(
         &self,
         folder: &Path,
         scene: &str,
         images: &[String],
+        judge: fn(&Path) -> Result<Image, String>,
     ) -> Result<String, Stop> {
         let failed = |problem: String| Stop::Failed(format!("{scene}: {problem}"));
         let folder = fs::canonicalize(folder).map_err(|error| failed(error.to_string()))?;
@@ -91,7 +98,7 @@ impl Renderer {
                 return Err(failed(format!("RISE wrote no {image}")));
             }
             if Format::of_name(image).is_some() {
-                seen(&folder.join(image)).map_err(&failed)?;
+                judge(&folder.join(image)).map_err(&failed)?;
             }
         }
         let seconds = started.elapsed().as_secs_f64();
