@@ -103,6 +103,12 @@ pub(super) fn material(
             ];
             facets(chunk, chunks, files, &shape)
         }
+        "dielectric_material" => {
+            let problem = "dielectric_material is left as it is: it reflects as a mirror does, in one \
+                           direction, and lets light through; a rough face of the same index and \
+                           films is a ggx_material, or a model in comments with a stack";
+            Err(ExportError::refused("material", problem))
+        }
         other => {
             let problem = format!("{other} is left as it is: no model of it has a table of rings");
             Err(ExportError::refused("material", problem))
