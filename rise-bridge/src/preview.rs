@@ -8,8 +8,8 @@
 //!
 //! so a white diffuser that faces a lamp of E = 1 has the value 1. f is the Mueller BRDF of the
 //! model at every wavelength and azimuth; R turn Stokes vectors between the bases of the surface
-//! point, of the lamp and of the camera. The second term holds the sky, which is unpolarized and
-//! uniform, and one bounce between points of the body, with its Stokes vector: both are sampled
+//! point, of the lamp and of the camera. The second term holds the sky, which is unpolarized, and
+//! one bounce between points of the body, with its Stokes vector: both are sampled
 //! with a density proportional to cos θ_i. Random numbers are a function of pixel, sample and
 //! dimension, so the picture has the same bits on any number of threads.
 //!
@@ -29,6 +29,7 @@ mod picture;
 mod points;
 mod random;
 mod response;
+mod sky;
 mod spectral;
 mod turn;
 
@@ -44,6 +45,7 @@ use spectra::{ColourPlan, ColourSettings, Grid, Xyz};
 pub use picture::{Polarization, brightest, picture, side_by_side};
 pub use points::{DistantLamps, SurfacePoint, shade};
 pub use shape::Shape;
+pub use sky::{Environment, Sky};
 pub use spectral::spectral_exr;
 
 use path::Row;
@@ -89,8 +91,8 @@ pub struct Scene {
     pub light: [f64; 4],
     /// The basis of that vector.
     pub light_basis: LampBasis,
-    /// Radiance factor that a white diffuser has under the sky alone; 0 is darkness.
-    pub sky: f64,
+    /// The surroundings.
+    pub sky: Sky,
     /// Whether points of the body light each other, once.
     pub bounce: bool,
     /// Columns and rows.

@@ -15,7 +15,7 @@ use mist_engine::{
 use rise_bridge::{
     export::ExportError,
     image::{Encoding, Image},
-    preview::{self, Film, Lamp, LampBasis, Scene, Shape},
+    preview::{self, Film, Lamp, LampBasis, Scene, Shape, Sky},
     rise::{
         deferred::{self, Deferred, Lit},
         scene::{Chunk, chunks},
@@ -216,7 +216,7 @@ fn seen_from_far_away_it_is_the_picture_of_the_preview() {
         lamps: vec![Lamp { irradiance: 2.5 * FRAC_1_PI, ..toward }],
         light,
         light_basis: LampBasis::PlaneOfIncidence,
-        sky: 0.0,
+        sky: Sky::Dark,
         bounce: false,
         size: [size; 2],
         samples: 256,

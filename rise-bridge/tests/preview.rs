@@ -8,7 +8,12 @@ use mist_engine::{
     Control,
     material::{Material, Prepared, query::ColourNames},
 };
-use rise_bridge::preview::{Film, Lamp, LampBasis, Scene, Shape, mesh::Mesh, render, spectral_exr};
+use rise_bridge::{
+    image::{Encoding, Image},
+    preview::{
+        Environment, Film, Lamp, LampBasis, Scene, Shape, Sky, mesh::Mesh, render, spectral_exr,
+    },
+};
 use scattering::Mode;
 use spectra::ColourSettings;
 
@@ -33,7 +38,7 @@ fn scene(shape: Shape, lamps: Vec<Lamp>) -> Scene {
         lamps,
         light: [1.0, 0.0, 0.0, 0.0],
         light_basis: LampBasis::PlaneOfIncidence,
-        sky: 0.0,
+        sky: Sky::Dark,
         bounce: false,
         size: [16, 16],
         samples: 4,
@@ -66,9 +71,27 @@ fn a_white_surface_that_faces_the_lamp_has_the_value_one() {
 
 #[test]
 fn a_white_surface_under_the_sky_alone_has_the_value_of_the_sky() {
-    let sky = Scene { sky: 0.5, ..scene(Shape::Plane(0.3), Vec::new()) };
+    let sky = Scene { sky: Sky::Even(0.5), ..scene(Shape::Plane(0.3), Vec::new()) };
     // Every sample of a white surface has the same value.
     assert!((middle(&film(&white(), &sky))[0] - 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn a_sky_that_is_bright_on_one_side_lights_what_turns_there() {
+    // White above the horizon of the camera, black below it.
+    let values = (0..32).flat_map(|row| [if row < 16 { 1.0 } else { 0.0 }; 64]).collect();
+    let picture = Image::new([64, 32], 1, values, Encoding::Linear).unwrap();
+    for tilt in [0.0, 40.0, -70.0] {
+        let scene = Scene {
+            sky: Sky::Map(Environment::new(&picture, 0.8)),
+            samples: 4096,
+            ..scene(Shape::Plane(degrees(tilt)), Vec::new())
+        };
+        // The part of a half space that a plane sees: (1 + cos of the angle to the zenith)/2.
+        let expected = 0.8 * 0.5 * (1.0 + degrees(tilt).sin());
+        let [found, q, ..] = middle(&film(&white(), &scene));
+        assert!((found - expected).abs() < 0.02 && q == 0.0, "{tilt}: {found}, {expected}");
+    }
 }
 
 #[test]
@@ -141,7 +164,7 @@ fn the_picture_is_the_same_on_one_thread_and_on_three() {
     let lamp = Lamp::at(degrees(40.0), degrees(120.0), degrees(3.0), 1.0);
     let metal = r#"{"model":"Facet_BRDF_Model","parameters":{"sdf.s":0.4}}"#;
     let metal = material(metal);
-    let scene = Scene { sky: 0.2, bounce: true, ..scene(Shape::Sphere, vec![lamp]) };
+    let scene = Scene { sky: Sky::Even(0.2), bounce: true, ..scene(Shape::Sphere, vec![lamp]) };
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| film(&metal, &scene))

@@ -11,7 +11,7 @@ use mist_engine::{
 };
 use rise_bridge::{
     mitsuba::{axes::Axes, pbsdf},
-    preview::{Lamp, LampBasis, Scene, Shape, mesh::Mesh, render},
+    preview::{Lamp, LampBasis, Scene, Shape, Sky, mesh::Mesh, render},
 };
 use scattering::Mode;
 
@@ -40,7 +40,7 @@ fn preview(c: &mut Criterion) {
             lamps: vec![Lamp::at(0.7, 2.1, 0.0, 1.0)],
             light: [1.0, 0.0, 0.0, 0.0],
             light_basis: LampBasis::PlaneOfIncidence,
-            sky: 0.0,
+            sky: Sky::Dark,
             bounce: false,
             size: [512, 512],
             samples: 16,

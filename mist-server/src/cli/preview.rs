@@ -9,8 +9,8 @@ use mist_engine::{
 use rise_bridge::{
     image::{Format, Image},
     preview::{
-        self, Film, Lamp, LampBasis, Polarization, Scene, Shape, brightest, mesh::Mesh, picture,
-        side_by_side, spectral_exr,
+        self, Environment, Film, Lamp, LampBasis, Polarization, Scene, Shape, Sky, brightest,
+        mesh::Mesh, picture, side_by_side, spectral_exr,
     },
 };
 use spectra::{ColourPlan, ColourSettings, Grid};
@@ -38,6 +38,7 @@ use crate::{
 Examples:
   mist preview examples/gold/gold.mist -o gold.png
   mist preview paint.json --shape torus --bounce --sky 0.3 -o paint.png
+  mist preview paint.json --environment hall.exr --samples 256 -o paint.png
   mist preview paint.json --filter linear:90 --side-by-side -o glare.png
   mist preview jade.mist --incident 1,0.2,0,0 --lamp 30,120,5 -o jade.exr
   mist preview gold.mist --shape dragon.ply --spectral -o gold.exr")]
@@ -56,9 +57,14 @@ pub(super) struct Args {
         allow_hyphen_values = true
     )]
     lamp: Vec<String>,
-    /// Radiance of a uniform sky: what a white diffuser has from it.
-    #[arg(long, default_value_t = 0.0, value_name = "FACTOR")]
-    sky: f64,
+    /// Radiance of a uniform sky: what a white diffuser has from it [default: 0; with --environment
+    /// what its luminances are multiplied by, 1].
+    #[arg(long, value_name = "FACTOR")]
+    sky: Option<f64>,
+    /// A picture of the sky in all directions (EXR, HDR, PNG, PFM): azimuth over the columns, the
+    /// zenith in the first row; its middle is what the camera looks at.
+    #[arg(long, value_name = "FILE")]
+    environment: Option<PathBuf>,
     /// Points of the body light each other, once.
     #[arg(long)]
     bounce: bool,
@@ -199,21 +205,44 @@ impl Args {
             let most = format!("pixels times --samples are 1 to {MOST_SAMPLES}");
             return Err(Stop::Refused(most));
         }
-        if !(self.sky >= 0.0 && self.sky.is_finite() && self.exposure.is_finite()) {
-            return Err(Stop::Refused("--sky is not negative; --exposure is a number".into()));
+        if !self.exposure.is_finite() {
+            return Err(Stop::Refused("--exposure is a number".into()));
         }
         Ok(Scene {
             shape: self.body()?,
             lamps: self.lamp.iter().map(|text| lamp(text)).collect::<Result<_, _>>()?,
             light: query::stokes(&self.incident).map_err(refused)?,
             light_basis: self.incident_basis.into(),
-            sky: self.sky,
+            sky: self.sky()?,
             bounce: self.bounce,
             size,
             samples: self.samples,
             exact: self.exact,
             spectra: self.spectral,
         })
+    }
+
+    fn sky(&self) -> Result<Sky, Stop> {
+        let usual = if self.environment.is_some() { 1.0 } else { 0.0 };
+        let factor = self.sky.unwrap_or(usual);
+        if !(factor >= 0.0 && factor.is_finite()) {
+            return Err(Stop::Refused("--sky is not negative".into()));
+        }
+        match &self.environment {
+            _ if factor == 0.0 => Ok(Sky::Dark),
+            None => Ok(Sky::Even(factor)),
+            Some(path) => {
+                let refused = |error: &dyn std::fmt::Display| {
+                    Stop::Refused(format!("--environment {}: {error}", path.display()))
+                };
+                let bytes = std::fs::read(path).map_err(|error| refused(&error))?;
+                let picture = Image::read(&bytes).map_err(|error| refused(&error))?;
+                if picture.values().iter().any(|value| !value.is_finite()) {
+                    return Err(refused(&"it has values that are no numbers"));
+                }
+                Ok(Sky::Map(Environment::new(&picture, factor)))
+            }
+        }
     }
 
     fn pixels(&self) -> Result<[usize; 2], Stop> {

@@ -138,7 +138,7 @@ impl Row {
             let lamp = lamp_turn(scene.light_basis, frame, light.toward);
             self.push(&seen, light.weight, light.toward, None, Some(lamp));
         }
-        if scene.sky > 0.0 || scene.bounce {
+        if scene.sky.is_light() || scene.bounce {
             self.around(scene, hit, &seen, random);
         }
     }
@@ -151,9 +151,9 @@ impl Row {
             return;
         }
         match scene.shape.hit(leaving(hit, toward)) {
-            None if scene.sky > 0.0 => {
+            None if scene.sky.is_light() => {
                 // ∫ f L cos dω by a density cos/π, for L = sky/π.
-                self.push(seen, scene.sky, toward, None, None);
+                self.push(seen, scene.sky.toward(toward), toward, None, None);
             }
             Some(other) if scene.bounce => {
                 let Some(other) = Point::new(other) else { return };
