@@ -199,6 +199,19 @@ mod tests {
     }
 
     #[test]
+    fn the_cone_of_90_degrees_about_the_normal_has_the_directions_of_the_hemisphere() {
+        assert_eq!(Region::around((0.0, 0.0), FRAC_PI_2), Region::Hemi);
+        for mode in [1, 2, 3, 4, 12] {
+            let sampling = sampling(mode, 0.001, Apertures::Nist);
+            let cone = matrix(&circle((0.0, 0.0), FRAC_PI_2), &sampling);
+            assert_eq!(cone, matrix(&Region::Hemi, &sampling), "mode {mode}");
+        }
+        for (center, alpha) in [((0.0, 0.1), FRAC_PI_2), ((0.0, 0.0), -FRAC_PI_2)] {
+            assert_eq!(Region::around(center, alpha), circle(center, alpha));
+        }
+    }
+
+    #[test]
     fn a_perfect_diffuser_sends_everything_into_the_hemisphere() {
         for mode in 1..=6 {
             let got = diffuse(&Region::Hemi, &sampling(mode, 0.001, Apertures::Exact));

@@ -4,6 +4,8 @@
 //! Projected means on the plane of the sample, where the area of a region is its projected
 //! solid angle ∫ cos θ dΩ.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::DVec3;
 use thiserror::Error;
 
@@ -122,6 +124,17 @@ pub(crate) struct Cone {
 }
 
 impl Region {
+    /// The cone of half angle `alpha` (radians) around `center`.
+    ///
+    /// That of 90° around the normal is the hemisphere, of which it has every direction: integrals
+    /// over both share their matrices.
+    pub fn around(center: Angles, alpha: f64) -> Self {
+        if center == (0.0, 0.0) && alpha == FRAC_PI_2 {
+            return Self::Hemi;
+        }
+        Self::Circle { center, alpha }
+    }
+
     /// The centre towards which a sensitivity is turned.
     pub fn polarization_center(&self) -> Angles {
         match self {

@@ -463,7 +463,7 @@ impl Aperture {
     fn integral(self, plan: &IntegralPlan, sampling: Sampling, demand: Option<Demand>) -> Integral {
         let region = match plan.shape {
             Shape::Differential => Region::Differential { center: self.center },
-            Shape::Circle => Region::Circle { center: self.center, alpha: self.alpha },
+            Shape::Circle => Region::around(self.center, self.alpha),
             Shape::Hemi => Region::Hemi,
             Shape::Annulus => Region::Annulus {
                 outer_center: self.center,
