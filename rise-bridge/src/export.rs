@@ -7,5 +7,5 @@ mod spread;
 
 pub use bands::Bands;
 pub use error::ExportError;
-pub(crate) use even::{even, quantile};
+pub(crate) use even::{even, even_in_four, quantile};
 pub use spread::Spread;

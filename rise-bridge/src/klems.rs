@@ -22,7 +22,7 @@ use mist_engine::{
 use rayon::prelude::*;
 use spectra::{ColourPlan, Grid};
 
-use crate::export::{Bands, ExportError, Spread, even};
+use crate::export::{Bands, ExportError, Spread, even_in_four};
 
 /// Upper polar angle (degrees) and number of patches of every ring of the full basis.
 const RINGS: [(f64, usize); 9] = [
@@ -137,9 +137,7 @@ pub fn spread(bands: &Bands) -> Result<Spread, ExportError> {
     let patches = patches();
     let hemisphere = Patch { lower: 0.0, upper: FRAC_PI_2, phi: 0.0, width: TAU };
     Ok(Spread::of(|n| {
-        let [a, b, c] = even(n);
-        // Steps of the golden section for the fourth axis.
-        let d = (n as f64 * 0.618_033_988_749_894_9).fract();
+        let [a, b, c, d] = even_in_four(n);
         let (light, leaving) = (hemisphere.direction(a, b), hemisphere.direction(c, d));
         let middle = patches[containing(light)].middle();
         let patch = mean(bands, &plan, middle, &patches[containing(leaving)]);

@@ -4,10 +4,18 @@
 ///
 /// M. Roberts, *The unreasonable effectiveness of quasirandom sequences* (2018).
 const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_3, 0.549_700_477_901_970_3];
+/// The same in four dimensions: the powers of 1/1.1673039783.
+const FOUR_STEPS: [f64; 4] =
+    [0.856_674_883_854_502_9, 0.733_891_856_627_126, 0.628_706_721_037_808_6, 0.538_597_257_223_61];
 
 /// The n-th point in the unit cube.
 pub(crate) fn even(n: usize) -> [f64; 3] {
     STEPS.map(|step| (0.5 + n as f64 * step).fract())
+}
+
+/// The n-th point in the unit cube of four dimensions.
+pub(crate) fn even_in_four(n: usize) -> [f64; 4] {
+    FOUR_STEPS.map(|step| (0.5 + n as f64 * step).fract())
 }
 
 /// The value below which this `part` of the light lies; pairs are (value, light).

@@ -4,7 +4,7 @@ use super::{
     AWAY, Channels, Job, LAST_THETA, Size,
     table::{self, Grid},
 };
-use crate::export::{Bands, ExportError, Spread, even};
+use crate::export::{Bands, ExportError, Spread, even_in_four};
 
 /// Sizes that are tried for isotropic materials, from small to large.
 const ISOTROPIC: [[usize; 3]; 5] =
@@ -54,9 +54,7 @@ pub fn choose_size(
 /// Per channel (relative error, light) at the n-th pair of directions; nothing where the light is
 /// below the horizon or a model has no number.
 fn sample(job: &Job<'_>, n: usize) -> Vec<(f64, f64)> {
-    let [t, u, w] = even(n);
-    // Steps of the golden section for the fourth axis.
-    let azimuth = (n as f64 * 0.618_033_988_749_894_9).fract();
+    let [t, u, w, azimuth] = even_in_four(n);
     let phi = job.phis[0] + azimuth * (job.phis[job.phis.len() - 1] - job.phis[0]);
     let theta = LAST_THETA.to_radians() * t;
     let here = job.at(theta, phi, u.max(AWAY), w);
