@@ -94,12 +94,13 @@ impl Row {
         row
     }
 
-    /// One way from each lamp that reaches a point; the pixels are the numbers of the points.
+    /// One way from each lamp that reaches a point.
     pub(super) fn over_points(points: &[SurfacePoint], lamps: &DistantLamps<'_>) -> Self {
         let mut row = Self::default();
-        for (pixel, point) in points.iter().enumerate() {
+        for point in points {
             let frame = Frame::of(point.normal);
-            let seen = Seen { frame: &frame, pixel, weight: 1.0, view: point.view() };
+            let (pixel, weight, view) = (point.column, point.part, point.view());
+            let seen = Seen { frame: &frame, pixel, weight, view };
             for (toward, irradiance) in lamps.toward.iter().zip(&point.irradiances) {
                 let weight = irradiance * toward.dot(point.normal);
                 if weight > 0.0 {

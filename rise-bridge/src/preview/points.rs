@@ -17,12 +17,13 @@ use super::{
     plan, spectra,
 };
 
-/// Points whose directions a model is asked for at once.
-const TOGETHER: usize = 256;
-
 /// A point that a camera sees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfacePoint {
+    /// The column of the pixel that shows it.
+    pub column: usize,
+    /// Its part of the pixel.
+    pub part: f64,
     /// Unit vector away from the body.
     pub normal: DVec3,
     /// Unit vector to the camera.
@@ -50,37 +51,40 @@ pub struct DistantLamps<'a> {
     pub light_basis: LampBasis,
 }
 
-/// XYZ of the four Stokes components that the camera sees of every point: ∑ E f cos θ_i, so that a
-/// white diffuser that faces a lamp of E = π has Y = 1. s is along [`SurfacePoint::horizontal`].
+/// XYZ of the four Stokes components in every pixel of a picture of this `size` (columns and rows),
+/// row by row from the top; `points` are those of a row.
+///
+/// They are ∑ E f cos θ_i, so that a white diffuser that faces a lamp of E = π has Y = 1. s is along
+/// [`SurfacePoint::horizontal`].
 ///
 /// # Errors
 ///
 /// As [`super::render`].
 pub fn shade(
     material: &Prepared,
-    points: &[SurfacePoint],
+    [width, height]: [usize; 2],
+    points: impl Fn(usize) -> Vec<SurfacePoint> + Sync,
     lamps: &DistantLamps<'_>,
-    wavelengths: &[f64],
-    settings: ColourSettings,
+    (wavelengths, settings): (&[f64], ColourSettings),
     control: &Control,
 ) -> Result<Vec<[Xyz; 4]>, MaterialError> {
     let plan = plan(wavelengths, settings)?;
     let models = models(material, wavelengths)?;
     let done = AtomicUsize::new(0);
-    let some = |some: &[SurfacePoint]| {
+    let row = |y: usize| {
         if control.is_cancelled() {
             return Err(MaterialError::Cancelled);
         }
-        let row = Row::over_points(some, lamps);
-        let spectra = spectra(&row, &models, Stokes(lamps.light), some.len());
-        let before = done.fetch_add(some.len(), Ordering::Relaxed);
-        control.report((before + some.len()) as f64 / points.len() as f64);
-        Ok(colours(&spectra, models.len(), &plan))
+        let row = Row::over_points(&points(y), lamps);
+        let spectra = spectra(&row, &models, Stokes(lamps.light), width);
+        let before = done.fetch_add(1, Ordering::Relaxed);
+        control.report((before + 1) as f64 / height as f64);
+        let pixels = colours(&spectra, models.len(), &plan);
+        match pixels.iter().position(|[i, ..]| !(i.x + i.y + i.z).is_finite()) {
+            Some(x) => Err(MaterialError::NotFinite(format!("pixel {x}, {y}"))),
+            None => Ok(pixels),
+        }
     };
-    let seen: Result<Vec<_>, _> = points.par_chunks(TOGETHER).map(some).collect();
-    let seen = seen?.concat();
-    match seen.iter().position(|[i, ..]| !(i.x + i.y + i.z).is_finite()) {
-        Some(k) => Err(MaterialError::NotFinite(format!("normal {:.3}", points[k].normal))),
-        None => Ok(seen),
-    }
+    let rows: Result<Vec<_>, _> = (0..height).into_par_iter().map(row).collect();
+    Ok(rows?.concat())
 }

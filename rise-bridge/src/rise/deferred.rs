@@ -159,29 +159,27 @@ impl Deferred {
         let toward: Vec<DVec3> = self.lamps.iter().map(|lamp| lamp.toward).collect();
         let lamps =
             DistantLamps { toward: &toward, light: lit.light, light_basis: lit.light_basis };
-        let part = 1.0 / (self.finer * self.finer) as f64;
         for (number, material) in self.materials.iter().enumerate() {
-            let (places, points) = self.points(&material.name, &image)?;
+            let buffers = self.buffers(&material.name, &image)?;
             let prepared = material.material.prepare(Mode::Sound, Some(files.clone()))?;
-            let settings = lit.settings.clone();
+            let colours = (&*lit.wavelengths, lit.settings.clone());
             let own = Control { cancel: control.cancel.clone(), progress: None };
-            let seen = shade(&prepared, &points, &lamps, &lit.wavelengths, settings, &own)?;
-            for (place, stokes) in places.into_iter().zip(seen) {
-                for (sum, xyz) in pixels[place].iter_mut().zip(stokes) {
-                    *sum += xyz * part;
-                }
+            let points = |y| self.points(&buffers, y);
+            let seen = shade(&prepared, self.size, points, &lamps, colours, &own)?;
+            for (sum, stokes) in pixels.iter_mut().flatten().zip(seen.iter().flatten()) {
+                *sum += *stokes;
             }
             control.report((number + 1) as f64 / self.materials.len() as f64);
         }
         Ok(Film { size: self.size, pixels, spectra: Vec::new() })
     }
 
-    /// The points at which a material is seen, and the pixels of the picture that they are in.
-    fn points(
+    /// The renders of a material, read by `image`.
+    fn buffers(
         &self,
         material: &str,
         image: &impl Fn(&str) -> Result<Image, ExportError>,
-    ) -> Result<(Vec<usize>, Vec<SurfacePoint>), ExportError> {
+    ) -> Result<Buffers, ExportError> {
         let size = self.size.map(|n| n * self.finer);
         let render = |what: &str| {
             let name = format!("{}.exr", self.pass(material, what));
@@ -190,35 +188,57 @@ impl Deferred {
                 let problem = format!("it has {:?} pixels, not {size:?}", image.size());
                 return Err(ExportError::refused(&name, problem));
             }
-            Ok(image.linear().map(|rgb| rgb[1]).collect::<Vec<f64>>())
+            Ok(image.linear().map(|rgb| rgb[1] as f32).collect())
         };
-        let faces = AXES.map(|(name, _)| render(name));
-        let [px, nx, py, ny, pz, nz] = faces;
-        let [px, nx, py, ny, pz, nz] = [px?, nx?, py?, ny?, pz?, nz?];
-        let lit: Vec<Vec<f64>> =
-            (0..self.lamps.len()).map(|k| render(&format!("lamp{k}"))).collect::<Result<_, _>>()?;
-        let (mut places, mut points) = (Vec::new(), Vec::new());
-        for at in 0..size[0] * size[1] {
-            let normal = DVec3::new(px[at] - nx[at], py[at] - ny[at], pz[at] - nz[at]);
-            if (normal.length() - 1.0).abs() > LENGTH {
-                continue;
-            }
-            let normal = normal.normalize();
-            let [x, y] = [at % size[0], at / size[0]];
-            let (to_camera, horizontal) = self.camera.sees([x, y], size);
-            let irradiances = self.lamps.iter().zip(&lit).map(|(lamp, lit)| {
-                // One sample per pixel: all of the lamp or nothing of it.
-                let is_lit = lit[at] > 0.5 * normal.dot(lamp.toward).max(0.0) && lit[at] > 0.0;
-                if is_lit { lamp.irradiance } else { 0.0 }
-            });
-            let irradiances = irradiances.collect();
-            points.push(SurfacePoint { normal, to_camera, horizontal, irradiances });
-            places.push(y / self.finer * self.size[0] + x / self.finer);
-        }
-        if points.is_empty() {
+        let faces = AXES.iter().map(|(axis, _)| render(axis)).collect::<Result<_, _>>()?;
+        let lamps = (0..self.lamps.len()).map(|k| render(&format!("lamp{k}")));
+        let buffers = Buffers { faces, lamps: lamps.collect::<Result<_, _>>()? };
+        if !(0..size[0] * size[1]).any(|at| buffers.normal(at).is_some()) {
             let problem = "no render shows it: it is hidden, or RISE failed without saying so";
             return Err(ExportError::refused(material, problem));
         }
-        Ok((places, points))
+        Ok(buffers)
+    }
+
+    /// The points that row `y` of the picture shows.
+    fn points(&self, buffers: &Buffers, y: usize) -> Vec<SurfacePoint> {
+        let size = self.size.map(|n| n * self.finer);
+        let pixels = y * self.finer * size[0]..(y + 1) * self.finer * size[0];
+        let point = |at: usize| {
+            let normal = buffers.normal(at)?;
+            let [x, y] = [at % size[0], at / size[0]];
+            let (to_camera, horizontal) = self.camera.sees([x, y], size);
+            let irradiances = self.lamps.iter().zip(&buffers.lamps).map(|(lamp, lit)| {
+                // One sample per pixel: all of the lamp or nothing of it.
+                let lit = f64::from(lit[at]);
+                let is_lit = lit > 0.0 && lit > 0.5 * normal.dot(lamp.toward);
+                if is_lit { lamp.irradiance } else { 0.0 }
+            });
+            Some(SurfacePoint {
+                column: x / self.finer,
+                part: 1.0 / (self.finer * self.finer) as f64,
+                normal,
+                to_camera,
+                horizontal,
+                irradiances: irradiances.collect(),
+            })
+        };
+        pixels.filter_map(point).collect()
+    }
+}
+
+/// The renders of one material, one value per pixel.
+struct Buffers {
+    /// Of [`AXES`].
+    faces: Vec<Vec<f32>>,
+    lamps: Vec<Vec<f32>>,
+}
+
+impl Buffers {
+    /// The normal of what a pixel shows, if it shows the material.
+    fn normal(&self, at: usize) -> Option<DVec3> {
+        let sums = self.faces.iter().zip(AXES).map(|(face, (_, axis))| axis * f64::from(face[at]));
+        let normal: DVec3 = sums.sum();
+        ((normal.length() - 1.0).abs() <= LENGTH).then(|| normal.normalize())
     }
 }

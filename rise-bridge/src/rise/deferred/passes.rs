@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::{Lamp, camera::triple};
 use crate::{
     export::ExportError,
+    image::MOST_PIXELS,
     rise::scene::{Chunk, replaced},
 };
 
@@ -46,7 +47,12 @@ impl<'a> Passes<'a> {
                 ExportError::refused(&part, format!("{name} of the film is not 1 to 8192"))
             })
         };
-        Ok(Self { text, chunks, film, finer, size: [side("width")?, side("height")?] })
+        let size = [side("width")?, side("height")?];
+        if size[0] * size[1] * finer * finer > MOST_PIXELS {
+            let problem = format!("{finer} times its pixels each way are more than {MOST_PIXELS}");
+            return Err(ExportError::refused("film", problem));
+        }
+        Ok(Self { text, chunks, film, finer, size })
     }
 
     /// The lamps of the scene.
