@@ -142,7 +142,8 @@ impl Deferred {
         format!("{}_d_{material}_{what}", self.stem)
     }
 
-    /// The picture, from the renders: `image` reads `NAME.exr`.
+    /// The picture, from the renders: `image` reads `NAME.exr`. Progress starts anew with every
+    /// material.
     ///
     /// # Errors
     ///
@@ -159,17 +160,15 @@ impl Deferred {
         let toward: Vec<DVec3> = self.lamps.iter().map(|lamp| lamp.toward).collect();
         let lamps =
             DistantLamps { toward: &toward, light: lit.light, light_basis: lit.light_basis };
-        for (number, material) in self.materials.iter().enumerate() {
+        for material in &self.materials {
             let buffers = self.buffers(&material.name, &image)?;
             let prepared = material.material.prepare(Mode::Sound, Some(files.clone()))?;
             let colours = (&*lit.wavelengths, lit.settings.clone());
-            let own = Control { cancel: control.cancel.clone(), progress: None };
             let points = |y| self.points(&buffers, y);
-            let seen = shade(&prepared, self.size, points, &lamps, colours, &own)?;
+            let seen = shade(&prepared, self.size, points, &lamps, colours, control)?;
             for (sum, stokes) in pixels.iter_mut().flatten().zip(seen.iter().flatten()) {
                 *sum += *stokes;
             }
-            control.report((number + 1) as f64 / self.materials.len() as f64);
         }
         Ok(Film { size: self.size, pixels, spectra: Vec::new() })
     }
