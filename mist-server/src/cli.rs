@@ -24,6 +24,7 @@ mod stop;
 mod table;
 mod tolerance;
 mod vary;
+mod watch;
 
 use std::{io::Write, process::ExitCode};
 

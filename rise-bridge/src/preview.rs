@@ -151,10 +151,7 @@ pub fn render(
             let before = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             control.report((before + 1) as f64 / height as f64);
             let kept = spectra.into_iter().filter(|_| scene.spectra).map(|x| x as f32).collect();
-            match pixels.iter().position(|[i, ..]| !(i.x + i.y + i.z).is_finite()) {
-                Some(x) => Err(MaterialError::NotFinite(format!("pixel {x}, {y}"))),
-                None => Ok((pixels, kept)),
-            }
+            Ok((finite(pixels, y)?, kept))
         })
         .collect::<Result<(Vec<_>, Vec<Vec<f32>>), MaterialError>>()?;
     Ok(Film { size: scene.size, pixels: rows.0.concat(), spectra: rows.1.concat() })
@@ -215,6 +212,14 @@ fn spectra(row: &Row, models: &[Model], light: Stokes, width: usize) -> Vec<f64>
         }
     }
     spectra
+}
+
+/// The `pixels` of row `y`, which must be numbers.
+fn finite(pixels: Vec<[Xyz; 4]>, y: usize) -> Result<Vec<[Xyz; 4]>, MaterialError> {
+    match pixels.iter().position(|[i, ..]| !(i.x + i.y + i.z).is_finite()) {
+        Some(x) => Err(MaterialError::NotFinite(format!("pixel {x}, {y}"))),
+        None => Ok(pixels),
+    }
 }
 
 /// XYZ of the `spectra` of pixels.

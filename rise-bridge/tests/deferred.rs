@@ -45,12 +45,7 @@ fn files() -> Arc<dyn Files + Send + Sync> {
 }
 
 fn lit(light: [f64; 4]) -> Lit {
-    let names = ColourNames {
-        illuminant: Some("D65".into()),
-        quantity: Some("factor".into()),
-        ..ColourNames::default()
-    };
-    let settings = names.settings(None).unwrap();
+    let settings = ColourNames::of_factors("D65").settings(None).unwrap();
     let light_basis = LampBasis::PlaneOfIncidence;
     Lit { wavelengths: NM.to_vec(), settings, light, light_basis }
 }

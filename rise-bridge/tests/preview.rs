@@ -28,7 +28,7 @@ fn white() -> Prepared {
 }
 
 fn settings() -> ColourSettings {
-    let names = ColourNames { quantity: Some("factor".into()), ..ColourNames::default() };
+    let names = ColourNames::of_factors("D65");
     names.settings(None).unwrap()
 }
 

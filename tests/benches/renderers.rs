@@ -30,7 +30,7 @@ fn paint() -> Prepared {
 fn preview(c: &mut Criterion) {
     let paint = paint();
     let nm: Vec<f64> = (40..=70).map(|k| 10.0 * f64::from(k)).collect();
-    let names = ColourNames { quantity: Some("factor".into()), ..ColourNames::default() };
+    let names = ColourNames::of_factors("D65");
     let settings = names.settings(None).expect("names of CIE");
     let mut group = c.benchmark_group("preview");
     group.sample_size(10);

@@ -65,7 +65,7 @@ impl Probes {
                 self.finish(0.0);
                 return Ok(());
             }
-            Patch::Circle(alpha) => Region::Circle { center, alpha: rad(*alpha) },
+            Patch::Circle(alpha) => Region::around(center, rad(*alpha)),
             Patch::Ring(inner, outer) => Region::Annulus {
                 outer_center: center,
                 outer_alpha: rad(*outer),

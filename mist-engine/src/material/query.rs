@@ -186,6 +186,15 @@ pub struct ColourNames {
 }
 
 impl ColourNames {
+    /// Of reflectance and radiance factors: a grey one of 1 is white under the `illuminant`.
+    pub fn of_factors(illuminant: &str) -> Self {
+        Self {
+            illuminant: Some(illuminant.to_owned()),
+            quantity: Some("factor".to_owned()),
+            ..Self::default()
+        }
+    }
+
     /// The settings; an illuminant that is no name is looked for in `files`.
     ///
     /// # Errors

@@ -6,9 +6,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{Control, material::query};
+use mist_engine::material::query;
 use rise_bridge::{
-    image::Format,
+    image::{Format, Image},
     rise::{
         product::{self, Made, Wanted},
         stack,
@@ -19,15 +19,11 @@ use super::{
     material::{not_exported, refused},
     preview::Basis,
     print,
-    run::pool,
     source::Source,
     stop::Stop,
+    watch::watched,
 };
-use crate::{
-    disk::{DiskFiles, WholeFile},
-    interrupt,
-    progress::Progress,
-};
+use crate::disk::{DiskFiles, WholeFile};
 
 mod deferred;
 mod render;
@@ -53,7 +49,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
     /// Nodes of each polar angle: 46 are 2 degrees apart.
-    #[arg(long, value_name = "N", default_value_t = 46)]
+    #[arg(long, value_name = "N", default_value_t = 46, conflicts_with = "deferred")]
     nodes: usize,
     /// Wavelengths in nm.
     #[arg(long, value_name = "NM", default_value = "380:10:780")]
@@ -119,15 +115,9 @@ fn tables(args: &Args, source: &Source) -> Result<(), Stop> {
         derive: args.derive,
         bands: args.bands,
     };
-    let progress = Progress::new(&source.stem());
-    let bar = progress.clone();
-    let control =
-        Control { cancel: interrupt::flag(), progress: Some(Box::new(move |part| bar.set(part))) };
-    let files = DiskFiles::beside(&args.scene).shared();
-    let make = || product::make(&source.text, &source.stem(), &files, &wanted, &control);
-    let made = pool(args.threads)?.install(make);
-    progress.finish();
-    let made = made.map_err(not_exported)?;
+    let (files, stem) = (DiskFiles::beside(&args.scene).shared(), source.stem());
+    let make = |control: &_| product::make(&source.text, &stem, &files, &wanted, control);
+    let made = watched(args.threads, &stem, make)?.map_err(not_exported)?;
     save(&args.out, &made.files)?;
     print(&told(&args.out, &made))?;
     for scene in renderer.iter().flat_map(|_| &made.scenes) {
@@ -137,7 +127,7 @@ fn tables(args: &Args, source: &Source) -> Result<(), Stop> {
         print(&renderer.render(&args.out, scene, &images, render::seen)?)?;
     }
     if args.bands && (args.render || args.stack) {
-        let stem = format!("{}_bands", source.stem());
+        let stem = format!("{stem}_bands");
         print(&stacked(&args.out, &stem, &made.bands, &wanted.wavelengths, &args.illuminant)?)?;
     }
     Ok(())
@@ -154,15 +144,19 @@ fn stacked(
     let images = renders.iter().map(|name| render::seen(&folder.join(name)));
     let images = images.collect::<Result<Vec<_>, String>>().map_err(Stop::Failed)?;
     let picture = stack::stack(&images, wavelengths, illuminant).map_err(not_exported)?;
-    let mut text = String::new();
-    for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
-        let path = folder.join(format!("{stem}.{extension}"));
+    let paths = save_image(folder, stem, &picture)?.into_iter();
+    Ok(paths.map(|path| format!("{}: of {} renders\n", path.display(), renders.len())).collect())
+}
+
+/// Writes `NAME.exr` (linear) and `NAME.png` (sRGB); says where they are.
+fn save_image(folder: &Path, name: &str, image: &Image) -> Result<[PathBuf; 2], Stop> {
+    let paths = ["exr", "png"].map(|extension| folder.join(format!("{name}.{extension}")));
+    for (path, format) in paths.iter().zip([Format::Exr, Format::Png]) {
         let failed = |error: String| Stop::Failed(format!("{}: {error}", path.display()));
-        let bytes = picture.write(format).map_err(|error| failed(error.to_string()))?;
-        WholeFile::write_bytes(&path, &bytes).map_err(|error| failed(error.to_string()))?;
-        text += &format!("{}: of {} renders\n", path.display(), renders.len());
+        let bytes = image.write(format).map_err(|error| failed(error.to_string()))?;
+        WholeFile::write_bytes(path, &bytes).map_err(|error| failed(error.to_string()))?;
     }
-    Ok(text)
+    Ok(paths)
 }
 
 fn save(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<(), Stop> {

@@ -16,11 +16,11 @@ use serde_json::json;
 use super::{
     material::{not_exported, prepared, refused},
     print,
-    run::pool,
     source::Source,
     stop::Stop,
+    watch::watched,
 };
-use crate::{disk::WholeFile, interrupt, progress::Progress};
+use crate::disk::WholeFile;
 
 mod format;
 mod goniometer;
@@ -97,7 +97,7 @@ struct Work<'a> {
     /// Where the material is from.
     source: Source,
     path: &'a Path,
-    control: Control,
+    control: &'a Control,
 }
 
 impl Work<'_> {
@@ -128,26 +128,28 @@ impl Work<'_> {
 pub(super) fn export(args: &Args) -> Result<(), Stop> {
     let source = Source::read(&args.material)?;
     let material = prepared(&args.material, &source, args.compat)?;
-    let progress = Progress::new(&source.stem());
-    let bar = progress.clone();
-    let control =
-        Control { cancel: interrupt::flag(), progress: Some(Box::new(move |part| bar.set(part))) };
-    let pool = pool(args.threads)?;
-    let said = match (&args.compare, &args.output) {
-        (Some(table), _) => pool.install(|| compare(&material, table, &control)),
+    let label = source.stem();
+    print(&watched(args.threads, &label, |control| done(args, source, material, control))??)
+}
+
+fn done(
+    args: &Args,
+    source: Source,
+    material: Prepared,
+    control: &Control,
+) -> Result<String, Stop> {
+    match (&args.compare, &args.output) {
+        (Some(table), _) => compare(&material, table, control),
         (None, Some(path)) => {
             let format =
                 args.format.or_else(|| Format::of_name(path)).ok_or_else(Format::unknown)?;
             let usual = format.wavelengths(args);
             let wavelengths = args.wavelengths.as_deref().unwrap_or(usual);
             let wavelengths = query::nodes("wavelengths", wavelengths).map_err(refused)?;
-            let work = Work { args, material, wavelengths, source, path, control };
-            pool.install(|| format.write(&work))
+            format.write(&Work { args, material, wavelengths, source, path, control })
         }
         (None, None) => Err(Stop::Refused("--output or --compare is needed".into())),
-    };
-    progress.finish();
-    print(&said?)
+    }
 }
 
 /// The part that `auto:PERCENT` asks for; nothing for other grids.

@@ -2,10 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mist_engine::{
-    Control,
-    material::query::{self, ColourNames},
-};
+use mist_engine::material::query::{self, ColourNames};
 use rise_bridge::{
     image::{Format, Image},
     preview::{
@@ -18,15 +15,11 @@ use spectra::{ColourPlan, ColourSettings, Grid};
 use super::{
     material::{prepared, refused},
     print,
-    run::pool,
     source::Source,
     stop::Stop,
+    watch::watched,
 };
-use crate::{
-    disk::{DiskFiles, WholeFile},
-    interrupt,
-    progress::Progress,
-};
+use crate::disk::{DiskFiles, WholeFile};
 
 /// Render a material on a body: its colours under lamps and sky, with a filter before the camera.
 ///
@@ -153,14 +146,10 @@ pub(super) fn preview(args: &Args) -> Result<(), Stop> {
     let material = prepared(&args.material, &source, args.compat)?;
     let wavelengths = query::nodes("lambda", &args.lambda).map_err(refused)?;
     let settings = args.settings()?;
-    let progress = Progress::new(&source.stem());
-    let bar = progress.clone();
-    let control =
-        Control { cancel: interrupt::flag(), progress: Some(Box::new(move |part| bar.set(part))) };
-    let made = pool(args.threads)?
-        .install(|| preview::render(&material, &scene, &wavelengths, settings.clone(), &control));
-    progress.finish();
-    let film = made.map_err(refused)?;
+    let made = watched(args.threads, &source.stem(), |control| {
+        preview::render(&material, &scene, &wavelengths, settings.clone(), control)
+    });
+    let film = made?.map_err(refused)?;
     let failed = |error: String| Stop::Failed(error);
     let grid = Grid::new(&wavelengths).map_err(|error| failed(error.to_string()))?;
     let plan = ColourPlan::new(&grid, settings).map_err(|error| failed(error.to_string()))?;
@@ -190,11 +179,7 @@ impl Args {
     }
 
     fn settings(&self) -> Result<ColourSettings, Stop> {
-        let names = ColourNames {
-            illuminant: Some(self.illuminant.clone()),
-            quantity: Some("factor".into()),
-            ..ColourNames::default()
-        };
+        let names = ColourNames::of_factors(&self.illuminant);
         names.settings(Some(&DiskFiles::beside(&self.material))).map_err(refused)
     }
 

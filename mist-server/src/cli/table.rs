@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use mist_engine::{
-    Control,
     colour::ColourTable,
     material::{
         query::{self, ColourNames},
@@ -16,11 +15,11 @@ use rise_bridge::write::Style;
 use super::{
     material::{prepared, refused},
     print,
-    run::pool,
     source::Source,
     stop::Stop,
+    watch::watched,
 };
-use crate::{disk::DiskFiles, interrupt, products::Product, progress::Progress, wanted::Wanted};
+use crate::{disk::DiskFiles, products::Product, wanted::Wanted};
 
 /// Make the colour table of a material, or colour a table of results.
 ///
@@ -174,14 +173,7 @@ impl Args {
         };
         let files = DiskFiles::beside(path);
         let request = wanted.request(&source.stem(), Some(&files)).map_err(refused)?;
-        let progress = Progress::new(&source.stem());
-        let bar = progress.clone();
-        let control = Control {
-            cancel: interrupt::flag(),
-            progress: Some(Box::new(move |part| bar.set(part))),
-        };
-        let made = pool(self.threads)?.install(|| table::table(&prepared, &request, &control));
-        progress.finish();
-        made.map_err(refused)
+        let made = |control: &_| table::table(&prepared, &request, control);
+        watched(self.threads, &source.stem(), made)?.map_err(refused)
     }
 }

@@ -9,14 +9,13 @@ use mist_engine::{
 use mist_format::Diagnostic;
 
 use super::{
-    run::{mode, pool},
+    run::mode,
     source::Source,
     stop::{Fate, Stop},
+    watch::watched,
 };
 use crate::{
     disk::DiskFiles,
-    interrupt,
-    progress::Progress,
     report::{self, MessageFormat},
 };
 
@@ -64,16 +63,7 @@ impl Vary {
         label: &str,
         work: impl FnOnce(&Control) -> T + Send,
     ) -> Result<T, Stop> {
-        let pool = pool(self.threads)?;
-        let progress = Progress::new(label);
-        let bar = progress.clone();
-        let control = Control {
-            cancel: interrupt::flag(),
-            progress: Some(Box::new(move |part| bar.set(part))),
-        };
-        let done = pool.install(|| work(&control));
-        progress.finish();
-        Ok(done)
+        watched(self.threads, label, work)
     }
 }
 

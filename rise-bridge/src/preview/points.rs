@@ -12,7 +12,7 @@ use scattering::Stokes;
 use spectra::{ColourSettings, Xyz};
 
 use super::{
-    LampBasis, colours, models,
+    LampBasis, colours, finite, models,
     path::{Row, View},
     plan, spectra,
 };
@@ -79,11 +79,7 @@ pub fn shade(
         let spectra = spectra(&row, &models, Stokes(lamps.light), width);
         let before = done.fetch_add(1, Ordering::Relaxed);
         control.report((before + 1) as f64 / height as f64);
-        let pixels = colours(&spectra, models.len(), &plan);
-        match pixels.iter().position(|[i, ..]| !(i.x + i.y + i.z).is_finite()) {
-            Some(x) => Err(MaterialError::NotFinite(format!("pixel {x}, {y}"))),
-            None => Ok(pixels),
-        }
+        finite(colours(&spectra, models.len(), &plan), y)
     };
     let rows: Result<Vec<_>, _> = (0..height).into_par_iter().map(row).collect();
     Ok(rows?.concat())

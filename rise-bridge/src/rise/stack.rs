@@ -32,11 +32,7 @@ pub fn stack(
         let problem = format!("expected {wanted} renders of one size, found {}", renders.len());
         return Err(ExportError::refused("renders", problem));
     }
-    let names = ColourNames {
-        illuminant: Some(illuminant.into()),
-        quantity: Some("factor".into()),
-        ..ColourNames::default()
-    };
+    let names = ColourNames::of_factors(illuminant);
     let grid = Grid::new(wavelengths).map_err(|error| refused("wavelengths", &error))?;
     let plan = ColourPlan::new(&grid, names.settings(None)?);
     let plan = plan.map_err(|error| refused("illuminant", &error))?;

@@ -1,28 +1,22 @@
 //! `mist bridge --deferred`: scenes of geometry alone, and pictures from their renders.
 
-use mist_engine::{
-    Control,
-    material::query::{self, ColourNames},
-};
+use mist_engine::material::query::{self, ColourNames};
 use rise_bridge::{
     export::ExportError,
-    image::Format,
     preview::{Film, Polarization, brightest, picture},
-    rise::deferred::{self, Deferred, Lit},
+    rise::deferred::{self, Lit},
 };
 use spectra::{ColourPlan, Grid};
 
-use super::{Args, Stop, render, save};
+use super::{Args, Stop, render, save, save_image};
 use crate::{
     cli::{
         material::{not_exported, refused},
         preview, print,
-        run::pool,
         source::Source,
+        watch::watched,
     },
-    disk::{DiskFiles, WholeFile},
-    interrupt,
-    progress::Progress,
+    disk::DiskFiles,
 };
 
 /// Writes the scenes, and the pictures if their renders are there or wanted.
@@ -49,7 +43,11 @@ pub(super) fn deferred(args: &Args, source: &Source) -> Result<(), Stop> {
     if !(args.render || args.stack) {
         return Ok(());
     }
-    let film = shaded(args, &plan, &lit, &stem)?;
+    let image = |name: &str| {
+        render::read(&args.out.join(name)).map_err(|problem| ExportError::refused(name, problem))
+    };
+    let film = watched(args.threads, &stem, |control| plan.film(image, &files, &lit, control))?;
+    let film = film.map_err(not_exported)?;
     save_picture(args, &film, &lit, &format!("{stem}_deferred"), Polarization::All)?;
     if filter != Polarization::All {
         save_picture(args, &film, &lit, &format!("{stem}_deferred_filter"), filter)?;
@@ -59,11 +57,7 @@ pub(super) fn deferred(args: &Args, source: &Source) -> Result<(), Stop> {
 
 impl Args {
     fn lit(&self) -> Result<Lit, Stop> {
-        let names = ColourNames {
-            illuminant: Some(self.illuminant.clone()),
-            quantity: Some("factor".into()),
-            ..ColourNames::default()
-        };
+        let names = ColourNames::of_factors(&self.illuminant);
         Ok(Lit {
             wavelengths: query::nodes("wavelengths", &self.wavelengths).map_err(refused)?,
             settings: names.settings(None).map_err(refused)?,
@@ -71,20 +65,6 @@ impl Args {
             light_basis: self.incident_basis.into(),
         })
     }
-}
-
-fn shaded(args: &Args, plan: &Deferred, lit: &Lit, stem: &str) -> Result<Film, Stop> {
-    let progress = Progress::new(stem);
-    let bar = progress.clone();
-    let control =
-        Control { cancel: interrupt::flag(), progress: Some(Box::new(move |part| bar.set(part))) };
-    let image = |name: &str| {
-        render::read(&args.out.join(name)).map_err(|problem| ExportError::refused(name, problem))
-    };
-    let files = DiskFiles::beside(&args.scene).shared();
-    let film = pool(args.threads)?.install(|| plan.film(image, &files, lit, &control));
-    progress.finish();
-    film.map_err(not_exported)
 }
 
 fn save_picture(
@@ -98,11 +78,9 @@ fn save_picture(
     let grid = Grid::new(&lit.wavelengths).map_err(|error| failed(&error))?;
     let plan = ColourPlan::new(&grid, lit.settings.clone()).map_err(|error| failed(&error))?;
     let image = picture(film, &plan, filter, 1.0).map_err(|error| failed(&error))?;
-    for (extension, format) in [("exr", Format::Exr), ("png", Format::Png)] {
-        let path = args.out.join(format!("{name}.{extension}"));
-        let bytes = image.write(format).map_err(|error| failed(&error))?;
-        WholeFile::write_bytes(&path, &bytes).map_err(|error| failed(&error))?;
-        print(&format!("{}: brightest pixel {:.4}\n", path.display(), brightest(film, filter)))?;
+    let brightest = brightest(film, filter);
+    for path in save_image(&args.out, name, &image)? {
+        print(&format!("{}: brightest pixel {brightest:.4}\n", path.display()))?;
     }
     Ok(())
 }

@@ -26,7 +26,7 @@ pub(super) fn write(work: &Work<'_>, form: Form) -> Result<String, Stop> {
         }
     };
     let name = work.source.stem();
-    work.save(|file| goniometer::write(&bands, &axes, form, &name, file, &work.control))?;
+    work.save(|file| goniometer::write(&bands, &axes, form, &name, file, work.control))?;
     let (path, waves) = (work.path.display(), bands.nm().len());
     Ok(format!(
         "{path}: {} directions, {waves} wavelengths; between the nodes the error of f is {:.2} % \

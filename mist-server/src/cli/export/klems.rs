@@ -11,7 +11,7 @@ pub(super) fn write(work: &Work<'_>) -> Result<String, Stop> {
     }
     let bands = Bands::new(&work.material, &work.wavelengths).map_err(not_exported)?;
     let name = work.source.stem();
-    work.save(|file| klems::write(&bands, &name, file, &work.control))?;
+    work.save(|file| klems::write(&bands, &name, file, work.control))?;
     let spread = klems::spread(&bands).map_err(not_exported)?;
     Ok(format!(
         "{}: 145 x 145 patches, CIE X, Y and Z; inside the patches the error of f is {:.2} % (median) \

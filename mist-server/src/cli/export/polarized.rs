@@ -22,7 +22,7 @@ pub(super) fn write(work: &Work<'_>) -> Result<String, Stop> {
         }
     };
     let description = work.description("Mueller BRDF, 1/sr, no cosine");
-    work.save(|file| pbsdf::write(&bands, &axes, &description, file, &work.control))?;
+    work.save(|file| pbsdf::write(&bands, &axes, &description, file, work.control))?;
     let [phi_d, theta_d, theta_h] = axes.counts();
     Ok(format!(
         "{}: {phi_d}x{theta_d}x{theta_h} nodes, {} wavelengths; between the nodes the error of M00 \

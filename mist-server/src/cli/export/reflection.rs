@@ -24,7 +24,7 @@ pub(super) fn write(work: &Work<'_>) -> Result<String, Stop> {
         }
     };
     let description = work.description("BRDF times the cosine of the light, 1/sr");
-    work.save(|file| bsdf::write(&bands, channels, size, &description, file, &work.control))?;
+    work.save(|file| bsdf::write(&bands, channels, size, &description, file, work.control))?;
     let what = match channels {
         Channels::Rgb => "linear sRGB".to_owned(),
         Channels::Spectra => format!("{} wavelengths", bands.nm().len()),
