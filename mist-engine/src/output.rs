@@ -150,6 +150,8 @@ pub(crate) struct Outputs<'j> {
     /// Whether an integral or an output has the name of a variable, and hides it until the end
     /// of the line.
     hides: bool,
+    /// For each column of the loops the number that it showed last, by its bits, and the text.
+    shown: Vec<(u64, String)>,
 }
 
 impl<'j> Outputs<'j> {
@@ -161,7 +163,7 @@ impl<'j> Outputs<'j> {
         let mut results = integrals.chain(errors).chain(outputs);
         let predefined = [job.required.pi, job.required.deg];
         let hides = results.any(|slot| job.reads.contains(&slot) || predefined.contains(&slot));
-        Self { job, scope, stack: Stack::default(), values: None, hides }
+        Self { job, scope, stack: Stack::default(), values: None, hides, shown: Vec::new() }
     }
 
     /// Puts the line of `step`, whose integrals came out as `integrals`, into `line`.
@@ -184,9 +186,9 @@ impl<'j> Outputs<'j> {
         text.clear();
         cells.clear();
         outputs.clear();
-        for cell in &step.columns {
+        for (at, cell) in step.columns.iter().enumerate() {
             let start = text.len();
-            self.push_cell(text, cell)?;
+            self.push_cell(text, at, cell)?;
             cells.push(start..text.len());
             text.push('\t');
         }
@@ -224,10 +226,10 @@ impl<'j> Outputs<'j> {
         self.values = Some(step.values.clone());
     }
 
-    fn push_cell(&mut self, text: &mut String, cell: &Cell) -> Result<(), Fault> {
+    fn push_cell(&mut self, text: &mut String, at: usize, cell: &Cell) -> Result<(), Fault> {
         match cell {
             Cell::Text(cell) => text.push_str(cell),
-            Cell::Number(x) => push_general(text, *x, LOOP_DIGITS),
+            Cell::Number(x) => self.push_number(text, at, *x),
             Cell::Expression(expr) => {
                 let value: Value = self
                     .scope
@@ -237,6 +239,20 @@ impl<'j> Outputs<'j> {
             }
         }
         Ok(())
+    }
+
+    /// Appends the number of column `at`; those of outer loops stay for many lines.
+    fn push_number(&mut self, text: &mut String, at: usize, x: f64) {
+        if self.shown.len() <= at {
+            self.shown.resize(at + 1, (f64::NAN.to_bits(), String::new()));
+        }
+        let (bits, shown) = &mut self.shown[at];
+        if *bits != x.to_bits() || shown.is_empty() {
+            *bits = x.to_bits();
+            shown.clear();
+            push_general(shown, x, LOOP_DIGITS);
+        }
+        text.push_str(shown);
     }
 
     /// The number that `expr`, written at `place`, gives now.

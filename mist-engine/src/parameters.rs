@@ -10,11 +10,10 @@ mod fingerprint;
 mod formula;
 mod index;
 mod object;
+mod shared;
 mod slot;
 mod source;
 mod table;
-
-use std::sync::Arc;
 
 pub use error::SetError;
 pub(crate) use fingerprint::Digest;
@@ -22,15 +21,14 @@ pub use fingerprint::Fingerprint;
 
 use object::Object;
 use scattering::{Class, Mode, Node, spec::Met};
+use shared::Shared;
 
 use crate::Library;
 
 /// The state of a model's parameters.
 #[derive(Clone, Debug)]
 pub struct Parameters {
-    root: Arc<Object>,
-    /// Known unless a parameter was set since.
-    fingerprint: Option<Fingerprint>,
+    root: Shared<Object>,
 }
 
 /// What setting a parameter needs besides its name and text.
@@ -46,7 +44,7 @@ pub(crate) struct Context<'a> {
 impl Parameters {
     /// Every parameter of `class` at its default.
     pub fn new(class: &'static Class) -> Self {
-        Self { root: Arc::new(Object::new(class)), fingerprint: None }
+        Self { root: Shared::new(Object::new(class)) }
     }
 
     /// The class of the model.
@@ -73,27 +71,17 @@ impl Parameters {
     ) -> Result<(), SetError> {
         let mut context = Context { library, mode, evaluated_at: None, is_nested: false };
         let before = previous.map(|parameters| &*parameters.root);
-        Arc::make_mut(&mut self.root)
-            .set(path, text, &mut context, before)
-            .map_err(|error| error.named(path))?;
-        self.fingerprint = None;
-        Ok(())
+        self.root.edit().set(path, text, &mut context, before).map_err(|error| error.named(path))
     }
 
     /// Sets every parameter called `lambda`, of the model and of all objects in it, in µm.
     pub fn set_wavelength(&mut self, lambda: f64) {
-        Arc::make_mut(&mut self.root).set_wavelength(lambda);
-        self.fingerprint = None;
+        self.root.edit().set_wavelength(lambda);
     }
 
     /// Equal for states that build equal models.
     pub fn fingerprint(&self) -> Fingerprint {
-        self.fingerprint.unwrap_or_else(|| self.root.fingerprint())
-    }
-
-    /// Computes the digest, so that clones share it.
-    pub(crate) fn seal(&mut self) {
-        self.fingerprint = Some(self.fingerprint());
+        self.root.digest()
     }
 
     /// The typed values from which the model is built.
@@ -104,8 +92,7 @@ impl Parameters {
     /// Optical constants remembered for another wavelength than the present one are forgotten.
     pub(crate) fn forget_other_wavelengths(&mut self) {
         if self.root.remembers() {
-            Arc::make_mut(&mut self.root).forget_other_wavelengths(None);
-            self.fingerprint = None;
+            self.root.edit().forget_other_wavelengths(None);
         }
     }
 }

@@ -47,6 +47,13 @@ struct Known<T> {
     value: T,
 }
 
+/// What an entry gave last.
+struct Given {
+    known: Known<Value>,
+    /// When it was put into the slot of the entry.
+    put: u64,
+}
+
 /// What an entry sent to the model last.
 struct Sent {
     text: String,
@@ -61,8 +68,8 @@ pub struct Replay<'j> {
     stack: Stack,
     sweep: Option<Sweep<'j>>,
     overwritten: Vec<Option<Overwritten>>,
-    /// What the expression of each entry gave last.
-    entries: Vec<Option<Known<Value>>>,
+    /// What each entry gave last, unless a loop has written it since.
+    entries: Vec<Option<Given>>,
     incident: Option<Known<Stokes>>,
     integrals: Option<Known<Arc<Vec<Integral>>>>,
     /// The incident light with which they were made.
@@ -127,7 +134,6 @@ impl<'j> Replay<'j> {
         if self.job.options.mode == Mode::Compat {
             self.parameters.forget_other_wavelengths();
         }
-        self.parameters.seal();
         let step = self.step(listing)?;
         self.previous = Some(self.parameters.clone());
         self.index += 1;
@@ -179,34 +185,63 @@ impl<'j> Replay<'j> {
     fn evaluate_entry(&mut self, at: usize, listing: &mut String) -> Result<(), Fault> {
         let entry = &self.job.entries[at];
         let Some(slot) = entry.slot else {
+            let number;
             let text = match &self.overwritten[at] {
-                Some(Overwritten { content: Content::Text(text), .. }) => text.to_string(),
-                Some(Overwritten { content: Content::Number(x), .. }) => Value::from(*x).to_text(),
-                None => self.text(entry).as_str().to_owned(),
+                Some(Overwritten { content: Content::Text(text), .. }) => text,
+                Some(Overwritten { content: Content::Number(x), .. }) => {
+                    number = Value::from(*x).to_text();
+                    &*number
+                }
+                None => self.text(entry).as_str(),
             };
+            if self.last_sent[at].as_ref().is_some_and(|last| last.text == *text) {
+                return Ok(());
+            }
+            let text = text.to_owned();
             return self.send(at, Sent { text, bits: None }, listing);
         };
-        let value = self.entry_value(at, entry)?;
-        if entry.parameter.is_some() {
-            let bits = match value.as_slice() {
-                [one] => Some(one.to_bits()),
-                _ => None,
-            };
-            let same = self.last_sent[at].as_ref().is_some_and(|sent| sent.bits == bits);
-            let text = if same && bits.is_some() { None } else { Some(value.to_text()) };
-            self.scope.set(slot, value);
-            text.map_or(Ok(()), |text| self.send(at, Sent { text, bits }, listing))
-        } else {
-            self.scope.set(slot, value);
-            Ok(())
+        let is_sent = entry.parameter.is_none() || self.last_sent[at].is_some();
+        if is_sent && self.stands(at, slot) {
+            return Ok(());
         }
+        let known = self.entry_value(at, entry)?;
+        self.scope.set(slot, known.value.clone());
+        let bits = match known.value.as_slice() {
+            [one] => Some(one.to_bits()),
+            _ => None,
+        };
+        let sent = match &entry.parameter {
+            Some(_) => self.send_number(at, &known.value, bits, listing),
+            None => Ok(()),
+        };
+        self.entries[at] = Some(Given { known, put: self.scope.now() });
+        sent
     }
 
-    fn entry_value(&mut self, at: usize, entry: &Entry) -> Result<Value, Fault> {
+    /// Whether the slot of an entry holds what the entry would give now.
+    fn stands(&self, at: usize, slot: u32) -> bool {
+        self.entries[at].as_ref().is_some_and(|given| {
+            self.scope.is_same_since(given.put, &[slot])
+                && self.scope.is_same_since(given.known.at, self.read_by(at))
+        })
+    }
+
+    /// The slots that an entry reads.
+    fn read_by(&self, at: usize) -> &[u32] {
+        let expr = match &self.overwritten[at] {
+            None => self.job.entries[at].expr.as_ref(),
+            Some(overwritten) => overwritten.expr.as_ref(),
+        };
+        expr.map_or(&[], Expr::slots)
+    }
+
+    fn entry_value(&mut self, at: usize, entry: &Entry) -> Result<Known<Value>, Fault> {
         let text = self.text(entry);
         let expr = match &mut self.overwritten[at] {
             None => entry.expr.as_ref().expect("an entry with a slot has an expression"),
-            Some(Overwritten { content: Content::Number(x), .. }) => return Ok((*x).into()),
+            Some(Overwritten { content: Content::Number(x), .. }) => {
+                return Ok(Known { at: self.scope.now(), value: (*x).into() });
+            }
             Some(Overwritten { content: Content::Text(written), expr }) => {
                 if expr.is_none() {
                     *expr = Some(written_expr(self.job, written, text)?);
@@ -214,34 +249,49 @@ impl<'j> Replay<'j> {
                 expr.as_ref().expect("compiled just now")
             }
         };
-        if let Some(known) = &self.entries[at]
-            && self.scope.is_same_since(known.at, expr.slots())
+        if let Some(given) = self.entries[at].take()
+            && self.scope.is_same_since(given.known.at, expr.slots())
         {
-            return Ok(known.value.clone());
+            return Ok(given.known);
         }
         let value = self
             .scope
             .value(expr, &mut self.stack)
             .map_err(|error| unknown(self.job, &self.scope, text, &error))?;
-        self.entries[at] = Some(Known { at: self.scope.now(), value: value.clone() });
-        Ok(value)
+        Ok(Known { at: self.scope.now(), value })
     }
 
     fn text(&self, entry: &Entry) -> &'j Text {
         &self.job.program.variables[entry.variable].value
     }
 
-    /// Sends a parameter to the model, unless this entry sent the same text before.
-    fn send(&mut self, at: usize, sent: Sent, listing: &mut String) -> Result<(), Fault> {
-        let text = &sent.text;
-        if self.last_sent[at].as_ref().is_some_and(|last| last.text == *text) {
+    /// Sends the value of an entry to the model, unless the entry sent the same before; `bits` are
+    /// those of a single number.
+    fn send_number(
+        &mut self,
+        at: usize,
+        value: &Value,
+        bits: Option<u64>,
+        listing: &mut String,
+    ) -> Result<(), Fault> {
+        if bits.is_some() && self.last_sent[at].as_ref().is_some_and(|last| last.bits == bits) {
             return Ok(());
         }
+        let text = value.to_text();
+        if self.last_sent[at].as_ref().is_some_and(|last| last.text == text) {
+            return Ok(());
+        }
+        self.send(at, Sent { text, bits }, listing)
+    }
+
+    /// Sends a parameter to the model.
+    fn send(&mut self, at: usize, sent: Sent, listing: &mut String) -> Result<(), Fault> {
+        let text = &sent.text;
         let entry = &self.job.entries[at];
         let name = entry.parameter.as_deref().expect("only parameters are sent");
-        for part in ["Setting parameter ", name, " to ", text, "\n"] {
-            listing.push_str(part);
-        }
+        let line = ["Setting parameter ", name, " to ", text, "\n"];
+        listing.reserve(line.iter().map(|part| part.len()).sum());
+        line.iter().for_each(|part| listing.push_str(part));
         let mode = self.job.options.mode;
         self.parameters.set(name, text, &self.job.library, mode, self.previous.as_ref()).map_err(
             |error| {

@@ -122,7 +122,7 @@ impl<'j> Sweep<'j> {
             self.counts[at] = 0;
             match (&self.plans[at], &mut self.states[at]) {
                 (LoopPlan::For(plan), LoopState::For(state)) => {
-                    *state = ForState::start(plan, context, written)?;
+                    state.restart(plan, context, written)?;
                 }
                 (LoopPlan::List(plan), LoopState::List(state)) => {
                     *state = ListState::start(plan, context, written)?;

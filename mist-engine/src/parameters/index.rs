@@ -111,11 +111,14 @@ impl IndexState {
         self.held.is_some()
     }
 
-    /// Forgets what was kept for another wavelength than `lambda`.
-    pub(crate) fn forget_unless_at(self: &mut Arc<Self>, lambda: Option<f64>) {
-        if self.held.is_some_and(|held| Some(held.lambda) != lambda) {
-            Arc::make_mut(self).held = None;
-        }
+    /// Whether a value is kept for another wavelength than `lambda`.
+    pub(crate) fn holds_other_than(&self, lambda: Option<f64>) -> bool {
+        self.held.is_some_and(|held| Some(held.lambda) != lambda)
+    }
+
+    /// Forgets the value that was kept.
+    pub(crate) fn forget(&mut self) {
+        self.held = None;
     }
 
     /// Whether NIST's library reads another index or file in the text.

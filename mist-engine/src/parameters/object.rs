@@ -1,14 +1,11 @@
 //! A class with the state of its parameters.
 
-use std::{
-    hash::{Hash, Hasher},
-    sync::Arc,
-};
+use std::hash::{Hash, Hasher};
 
 use mist_format::{number::general, suggestion::did_you_mean};
 use scattering::{Class, Mode, Node, spec::Met};
 
-use super::{Context, Fingerprint, SetError, slot::Slot};
+use super::{Context, SetError, slot::Slot};
 
 /// Parameters that every class of NIST's library takes and that change nothing here.
 const IGNORED: &[&str] = &["recalc", "quiet"];
@@ -32,10 +29,6 @@ impl Object {
     /// Every parameter at its default.
     pub(crate) fn new(class: &'static Class) -> Self {
         Self { class, slots: class.parameters().map(Slot::default_of).collect() }
-    }
-
-    pub(crate) fn fingerprint(&self) -> Fingerprint {
-        Fingerprint::of(self)
     }
 
     /// Sets the parameter `path`, seen from this object; `before` is this object as it was last
@@ -86,7 +79,7 @@ impl Object {
     pub(crate) fn set_wavelength(&mut self, lambda: f64) {
         for (slot, param) in self.slots.iter_mut().zip(self.class.parameters()) {
             match slot {
-                Slot::Member(object) => Arc::make_mut(object).set_wavelength(lambda),
+                Slot::Member(object) => object.edit().set_wavelength(lambda),
                 Slot::Number(value) if param.name == "lambda" => {
                     // The digits that a program would send.
                     *value = general(lambda, 16).parse().unwrap_or(lambda);
@@ -109,8 +102,10 @@ impl Object {
         let lambda = self.wavelength().or(around);
         for slot in &mut self.slots {
             match slot {
-                Slot::Member(object) => Arc::make_mut(object).forget_other_wavelengths(lambda),
-                Slot::Index(index) => index.forget_unless_at(lambda),
+                Slot::Member(object) if object.remembers() => {
+                    object.edit().forget_other_wavelengths(lambda);
+                }
+                Slot::Index(index) if index.holds_other_than(lambda) => index.edit().forget(),
                 _ => {}
             }
         }

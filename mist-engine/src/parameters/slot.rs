@@ -17,7 +17,7 @@ use scattering::{
 
 use super::{
     Context, SetError, films::FilmsState, formula::Formula, index::IndexState, object::Object,
-    table::TableState,
+    shared::Shared, table::TableState,
 };
 use crate::quirk::Quirk;
 
@@ -35,10 +35,10 @@ pub(crate) enum Slot {
     },
     /// A function of x.
     Formula(Arc<Formula>),
-    Index(Arc<IndexState>),
-    Table(Arc<TableState>),
-    Films(Arc<FilmsState>),
-    Member(Arc<Object>),
+    Index(Shared<IndexState>),
+    Table(Shared<TableState>),
+    Films(Shared<FilmsState>),
+    Member(Shared<Object>),
 }
 
 impl Hash for Slot {
@@ -70,12 +70,12 @@ impl Slot {
             Kind::Text => Self::Text(default.into()),
             Kind::File => Self::File { name: default.into(), text: "".into() },
             Kind::Formula => Self::Formula(Arc::new(Formula::constant(default))),
-            Kind::Index => Self::Index(Arc::new(IndexState::constant(default))),
-            Kind::Table => Self::Table(Arc::new(TableState::constant(default))),
-            Kind::Films => Self::Films(Arc::default()),
+            Kind::Index => Self::Index(Shared::new(IndexState::constant(default))),
+            Kind::Table => Self::Table(Shared::new(TableState::constant(default))),
+            Kind::Films => Self::Films(Shared::default()),
             Kind::Member(..) => {
                 let class = spec::find_class(default).expect("a test builds every default");
-                Self::Member(Arc::new(Object::new(class)))
+                Self::Member(Shared::new(Object::new(class)))
             }
         }
     }
@@ -92,7 +92,7 @@ impl Slot {
             return Ok(());
         }
         if let Self::Table(table) = self {
-            return Arc::make_mut(table).replace(text, context);
+            return table.edit().replace(text, context);
         }
         *self = match param.kind {
             Kind::Number => Self::Number(number(text, context.mode)?),
@@ -104,12 +104,12 @@ impl Slot {
                 Self::File { name: text.into(), text: file }
             }
             Kind::Formula => Self::Formula(Arc::new(Formula::read(text, context.library)?)),
-            Kind::Index => Self::Index(Arc::new(IndexState::read(text, context)?)),
+            Kind::Index => Self::Index(Shared::new(IndexState::read(text, context)?)),
             Kind::Table => unreachable!("a table is replaced in place"),
-            Kind::Films => Self::Films(Arc::new(FilmsState::read(text, context)?)),
+            Kind::Films => Self::Films(Shared::new(FilmsState::read(text, context)?)),
             Kind::Member(family, base) => {
                 let class = member(text, family, base)?;
-                Self::Member(Arc::new(Object::new(class)))
+                Self::Member(Shared::new(Object::new(class)))
             }
         };
         Ok(())
@@ -138,11 +138,11 @@ impl Slot {
                     _ => None,
                 };
                 context.is_nested = true;
-                Arc::make_mut(object).set(rest, text, context, before)
+                object.edit().set(rest, text, context, before)
             }
-            Self::Index(index) => Arc::make_mut(index).set(rest, text, context),
-            Self::Table(table) => Arc::make_mut(table).set(rest, text, context),
-            Self::Films(films) => Arc::make_mut(films).set(rest, text, context),
+            Self::Index(index) => index.edit().set(rest, text, context),
+            Self::Table(table) => table.edit().set(rest, text, context),
+            Self::Films(films) => films.edit().set(rest, text, context),
             _ => Err(SetError::name(format!(
                 "{} is not an object: no sub-parameter {rest} is allowed",
                 param.name

@@ -37,7 +37,15 @@ pub(crate) struct ForPlan {
 pub(crate) struct ForState {
     value: f64,
     fraction: f64,
+    /// How often it was advanced since it was started.
+    at: usize,
+    /// What was written for the first values, with their bits: a loop that is started again
+    /// mostly has the same ones.
+    contents: Vec<(u64, Content)>,
 }
+
+/// Contents that a loop keeps.
+const KEPT: usize = 1 << 12;
 
 fn bound(text: &Text, expr: &Expr, context: &mut Context<'_>) -> Result<f64, Fault> {
     context.scope.number(expr, context.stack).map_err(|error| {
@@ -52,10 +60,22 @@ impl ForState {
         context: &mut Context<'_>,
         written: &mut Vec<Written>,
     ) -> Result<Self, Fault> {
-        let value = bound(&plan.statement.from, &plan.from, context)?;
-        let state = Self { value, fraction: 0.0 };
-        state.write(plan, written);
+        let mut state = Self { value: f64::NAN, fraction: 0.0, at: 0, contents: Vec::new() };
+        state.restart(plan, context, written)?;
         Ok(state)
+    }
+
+    /// Goes to the first value.
+    pub(crate) fn restart(
+        &mut self,
+        plan: &ForPlan,
+        context: &mut Context<'_>,
+        written: &mut Vec<Written>,
+    ) -> Result<(), Fault> {
+        self.value = bound(&plan.statement.from, &plan.from, context)?;
+        (self.fraction, self.at) = (0.0, 0);
+        self.write(plan, written);
+        Ok(())
     }
 
     /// Goes to the next value; false when it lies behind the last one.
@@ -89,6 +109,7 @@ impl ForState {
             }
         }
         if inside {
+            self.at += 1;
             self.write(plan, written);
         }
         Ok(inside)
@@ -106,12 +127,30 @@ impl ForState {
         self.fraction
     }
 
-    fn write(&self, plan: &ForPlan, written: &mut Vec<Written>) {
-        let number = if plan.is_text { None } else { number::reread(self.value) };
-        let content = number
-            .map_or_else(|| Content::Text(number::loop_text(self.value).into()), Content::Number);
+    fn write(&mut self, plan: &ForPlan, written: &mut Vec<Written>) {
+        let bits = self.value.to_bits();
+        let content = match self.contents.get_mut(self.at) {
+            Some((known, content)) if *known == bits => content.clone(),
+            Some(kept) => {
+                *kept = (bits, content(self.value, plan.is_text));
+                kept.1.clone()
+            }
+            None => {
+                let content = content(self.value, plan.is_text);
+                if self.at < KEPT {
+                    self.contents.push((bits, content.clone()));
+                }
+                content
+            }
+        };
         written.push(Written { entry: plan.entry, content });
     }
+}
+
+/// What a loop with this value writes.
+fn content(value: f64, is_text: bool) -> Content {
+    let number = if is_text { None } else { number::reread(value) };
+    number.map_or_else(|| Content::Text(number::loop_text(value).into()), Content::Number)
 }
 
 fn endless(plan: &ForPlan, from: f64, to: f64, by: f64) -> Fault {

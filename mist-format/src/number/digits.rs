@@ -11,10 +11,19 @@ pub(super) const MOST: usize = 17;
 /// Significant decimal digits d.ddd… of a number, times 10^exponent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Digits {
-    ascii: [u8; MOST],
+    ascii: Ascii,
     count: usize,
     /// The power of ten of the first digit.
     pub(super) exponent: i32,
+}
+
+/// Digits, and zeros behind them; whole words are checked faster than bytes when it becomes text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(align(16))]
+struct Ascii([u8; 32]);
+
+impl Ascii {
+    const ZEROS: Self = Self([b'0'; 32]);
 }
 
 impl Digits {
@@ -25,7 +34,7 @@ impl Digits {
             return None;
         }
         if x == 0.0 {
-            return Some(Self { ascii: [b'0'; MOST], count, exponent: 0 });
+            return Some(Self { ascii: Ascii::ZEROS, count, exponent: 0 });
         }
         let above = POWERS_OF_TEN[count];
         let mut exponent = lower_exponent(x);
@@ -53,7 +62,7 @@ impl Digits {
     /// The digits as text.
     pub(super) fn as_str(&self) -> &str {
         // The bytes are ASCII digits.
-        std::str::from_utf8(&self.ascii[..self.count]).unwrap_or_default()
+        &std::str::from_utf8(&self.ascii.0).unwrap_or_default()[..self.count]
     }
 }
 
@@ -200,8 +209,8 @@ const fn fifth(words: [u64; 3]) -> [u64; 3] {
 }
 
 /// The last `count` decimal digits of `whole`.
-fn ascii(mut whole: u64, count: usize) -> [u8; MOST] {
-    let mut ascii = [b'0'; MOST];
+fn ascii(mut whole: u64, count: usize) -> Ascii {
+    let Ascii(mut ascii) = Ascii::ZEROS;
     let mut at = count;
     while at >= 2 {
         let pair = (whole % 100) as usize * 2;
@@ -212,7 +221,7 @@ fn ascii(mut whole: u64, count: usize) -> [u8; MOST] {
     if at == 1 {
         ascii[0] = b'0' + (whole % 10) as u8;
     }
-    ascii
+    Ascii(ascii)
 }
 
 /// 00 01 02 … 99.
