@@ -71,6 +71,8 @@ pub struct Replay<'j> {
     /// What each entry gave last, unless a loop has written it since.
     entries: Vec<Option<Given>>,
     incident: Option<Known<Stokes>>,
+    /// What the expressions of the integrals' settings gave last.
+    settings: Vec<Vec<Option<Known<Value>>>>,
     integrals: Option<Known<Arc<Vec<Integral>>>>,
     /// The incident light with which they were made.
     incident_before: Option<Stokes>,
@@ -104,6 +106,11 @@ impl<'j> Replay<'j> {
             overwritten: (0..entries).map(|_| None).collect(),
             entries: (0..entries).map(|_| None).collect(),
             incident: None,
+            settings: job
+                .integrals
+                .iter()
+                .map(|plan| plan.settings.iter().map(|_| None).collect())
+                .collect(),
             integrals: None,
             incident_before: None,
             values: None,
@@ -357,7 +364,10 @@ impl<'j> Replay<'j> {
             values,
             listing,
             fraction: sweep.map_or(0.0, Sweep::fraction),
-            counts: sweep.map(|s| s.counts().to_vec()).unwrap_or_default(),
+            counts: sweep
+                .filter(|_| job.colour.is_some())
+                .map(|sweep| sweep.counts().to_vec())
+                .unwrap_or_default(),
         })
     }
 
@@ -379,8 +389,8 @@ impl<'j> Replay<'j> {
             return Ok(known.value.clone());
         }
         let mut integrals = Vec::with_capacity(job.integrals.len());
-        for plan in &job.integrals {
-            integrals.push(self.integral(plan, (sampling.clone(), demand), incident)?);
+        for number in 0..job.integrals.len() {
+            integrals.push(self.integral(number, (sampling.clone(), demand), incident)?);
         }
         let value = Arc::new(integrals);
         self.incident_before = Some(incident);
@@ -404,8 +414,9 @@ impl<'j> Replay<'j> {
     /// Adds the next integral of a chained program to `step`, with what the integrals before it
     /// have given.
     pub(crate) fn add_integral(&mut self, step: &mut Step) -> Result<(), Fault> {
-        let plan = &self.job.integrals[step.integrals.len()];
-        let integral = self.integral(plan, (step.sampling.clone(), step.demand), step.incident)?;
+        let number = step.integrals.len();
+        let integral =
+            self.integral(number, (step.sampling.clone(), step.demand), step.incident)?;
         Arc::make_mut(&mut step.integrals).push(integral);
         Ok(())
     }
@@ -466,17 +477,24 @@ impl<'j> Replay<'j> {
 
     fn integral(
         &mut self,
-        plan: &IntegralPlan,
+        number: usize,
         (sampling, demand): (Sampling, Option<Demand>),
         incident: Stokes,
     ) -> Result<Integral, Fault> {
+        let plan = &self.job.integrals[number];
         let mut aperture = Aperture { inpol: incident, ..Aperture::default() };
-        for setting in &plan.settings {
-            let value = self
-                .scope
-                .value(&setting.expr, &mut self.stack)
-                .map_err(|error| unknown(self.job, &self.scope, &setting.text, &error))?;
-            aperture.set(setting.key, &value, &setting.text)?;
+        for (setting, known) in plan.settings.iter().zip(&mut self.settings[number]) {
+            let is_same =
+                |known: &Known<Value>| self.scope.is_same_since(known.at, setting.expr.slots());
+            if !known.as_ref().is_some_and(is_same) {
+                let value = self
+                    .scope
+                    .value(&setting.expr, &mut self.stack)
+                    .map_err(|error| unknown(self.job, &self.scope, &setting.text, &error))?;
+                *known = Some(Known { at: self.scope.now(), value });
+            }
+            let value = &known.as_ref().expect("known by now").value;
+            aperture.set(setting.key, value, &setting.text)?;
         }
         Ok(aperture.integral(plan, sampling, demand))
     }

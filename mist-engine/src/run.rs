@@ -208,6 +208,7 @@ impl<'a> Runner<'a> {
             steps: 0,
         };
         let mut block = gather.block(self.pace)?;
+        let mut done_with = Vec::new();
         while let Some(last) = block.last() {
             let fraction = self.fraction(last);
             let block_started = Instant::now();
@@ -217,14 +218,18 @@ impl<'a> Runner<'a> {
                 gather.block(pace)
             } else {
                 let evaluate = || self.evaluate(&mut block, None);
-                let (done, next) = rayon::join(evaluate, || gather.block(pace));
+                let (done, next) = rayon::join(evaluate, || {
+                    // Memory goes back to the thread that took it.
+                    drop(std::mem::take(&mut done_with));
+                    gather.block(pace)
+                });
                 done?;
                 next
             };
             self.sink.block_done()?;
             self.control.report(fraction);
             self.keep_pace(block_started.elapsed());
-            block = next?;
+            done_with = std::mem::replace(&mut block, next?);
         }
         self.summary.steps = gather.steps;
         self.summary.seconds = started.elapsed().as_secs_f64();

@@ -36,7 +36,7 @@ pub struct Step {
     pub(crate) values: Arc<[Option<Value>]>,
     /// Lines for the listing.
     pub(crate) listing: String,
-    /// How often each loop was advanced since its reset.
+    /// How often each loop was advanced since its reset; nothing where no colours are made.
     pub(crate) counts: Vec<u64>,
     /// How far the first declared loop is, from 0 to 1.
     pub(crate) fraction: f64,

@@ -11,8 +11,11 @@ use crate::parameters::Digest;
 pub(crate) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Digest>>;
 
 /// Values of a total weight up to a bound.
+///
+/// They lie in the order they came, so that few pages of memory are touched by many of them.
 pub(crate) struct Kept<K, V> {
-    map: Map<K, V>,
+    places: Map<K, u32>,
+    values: Vec<V>,
     weight: usize,
     most: usize,
 }
@@ -20,20 +23,22 @@ pub(crate) struct Kept<K, V> {
 impl<K: Hash + Eq, V: Clone> Kept<K, V> {
     /// A cache for a total weight up to `most`.
     pub(crate) fn up_to(most: usize) -> Self {
-        Self { map: Map::default(), weight: 0, most }
+        Self { places: Map::default(), values: Vec::new(), weight: 0, most }
     }
 
     pub(crate) fn get(&self, key: &K) -> Option<&V> {
-        self.map.get(key)
+        self.places.get(key).map(|place| &self.values[*place as usize])
     }
 
     pub(crate) fn insert(&mut self, key: K, value: V, weight: usize) {
-        if self.weight + weight > self.most {
-            self.map.clear();
+        if self.weight + weight > self.most || u32::try_from(self.values.len()).is_err() {
+            self.places.clear();
+            self.values.clear();
             self.weight = 0;
         }
         self.weight += weight;
-        self.map.insert(key, value);
+        self.places.insert(key, self.values.len() as u32);
+        self.values.push(value);
     }
 }
 

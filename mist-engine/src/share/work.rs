@@ -31,13 +31,15 @@ const KEPT_INTEGRALS: usize = 1 << 17;
 /// Digits of the numbers in a samples file.
 const SAMPLE_DIGITS: usize = 6;
 
-/// All that determines a Mueller integral.
+/// The digest of all that determines a Mueller integral.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Key {
-    model: Fingerprint,
-    theta_i: u64,
-    rotation: u64,
-    aperture: Aperture,
+struct Key(Fingerprint);
+
+impl Key {
+    fn new(step: &Step, model: Fingerprint, aperture: Aperture) -> Self {
+        let beam = (step.theta_i.to_bits(), step.rotation.to_bits());
+        Self(Fingerprint::of(&(model, beam, aperture)))
+    }
 }
 
 /// Where light is collected.
@@ -252,12 +254,7 @@ impl<'a> Shared<'a> {
         todo.look_at(&step.integrals, layouts);
         for number in 0..step.integrals.len() {
             let (aperture, place) = &todo.apertures[number];
-            let key = Key {
-                model,
-                theta_i: step.theta_i.to_bits(),
-                rotation: step.rotation.to_bits(),
-                aperture: *aperture,
-            };
+            let key = Key::new(step, model, *aperture);
             if let Some((last, place)) = todo.last
                 && last == key
             {

@@ -1,6 +1,6 @@
 //! The value of an expression: a vector of at least one number.
 
-use crate::number::{self, list};
+use crate::number;
 
 /// A vector of at least one number; a single number needs no memory of its own.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +42,7 @@ impl Value {
 
     /// The text that is sent to a model: 16 significant digits, `(a,b,c)` for several.
     pub fn to_text(&self) -> String {
-        list(self.as_slice(), number::TEXT_DIGITS)
+        number::list(self.as_slice(), number::TEXT_DIGITS)
     }
 }
 

@@ -32,7 +32,7 @@ pub fn push_general(text: &mut String, x: f64, digits: usize) {
 
 /// A value as text: one number, or several as `(a,b,c)` without blanks.
 pub fn list(values: &[f64], digits: usize) -> String {
-    let mut text = String::new();
+    let mut text = String::with_capacity(values.len() * (digits.min(MOST) + 8));
     push_list(&mut text, values, digits);
     text
 }
