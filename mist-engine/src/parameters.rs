@@ -74,6 +74,12 @@ impl Parameters {
         self.root.edit().set(path, text, &mut context, before).map_err(|error| error.named(path))
     }
 
+    /// Whether `path` names a parameter of an object, which forgets what it was when it is set,
+    /// and not a setting of a table, of optical constants or of films.
+    pub(crate) fn belongs_to_object(&self, path: &str) -> bool {
+        self.root.owns(path)
+    }
+
     /// Sets every parameter called `lambda`, of the model and of all objects in it, in µm.
     pub fn set_wavelength(&mut self, lambda: f64) {
         self.root.edit().set_wavelength(lambda);

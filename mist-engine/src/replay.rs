@@ -3,6 +3,8 @@
 //! A replay owns the variables, the loops and the model's parameters, and yields one
 //! independent [`Step`] per combination of loop values. It never evaluates the model.
 
+pub(crate) mod alone;
+
 use std::{collections::BTreeSet, sync::Arc};
 
 use mist_format::{
@@ -133,6 +135,36 @@ impl<'j> Replay<'j> {
             self.ended = true;
             return Ok(None);
         }
+        let listing = self.evaluate_entries()?;
+        let step = self.step(listing)?;
+        self.leave_step();
+        Ok(Some(step))
+    }
+
+    /// Goes on to step `to` without making the steps before it, as far as the loops go. Only for
+    /// jobs whose steps stand [`alone`].
+    pub(crate) fn skip_to(&mut self, to: u64) -> Result<(), Fault> {
+        while self.index < to && !self.ended {
+            if !self.move_loops()? {
+                self.ended = true;
+                return Ok(());
+            }
+            // The first step sets what does not change, the last one what has changed.
+            if self.index == 0 || self.index + 1 == to {
+                self.evaluate_entries()?;
+            }
+            self.leave_step();
+        }
+        Ok(())
+    }
+
+    /// The parameters of the model as the step before left them.
+    pub(crate) fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// Evaluates all entries; gives their part of the listing.
+    fn evaluate_entries(&mut self) -> Result<String, Fault> {
         let mut listing = String::new();
         self.set_predefined();
         for at in 0..self.job.entries.len() {
@@ -141,10 +173,12 @@ impl<'j> Replay<'j> {
         if self.job.options.mode == Mode::Compat {
             self.parameters.forget_other_wavelengths();
         }
-        let step = self.step(listing)?;
+        Ok(listing)
+    }
+
+    fn leave_step(&mut self) {
         self.previous = Some(self.parameters.clone());
         self.index += 1;
-        Ok(Some(step))
     }
 
     /// How often each loop was advanced since its reset: the place of the last step.

@@ -1,11 +1,16 @@
 //! Running a job: steps in blocks, each block in parallel, results in order.
 
+mod gather;
+mod lanes;
+
 use std::{
     collections::BTreeSet,
     ops::Range,
     time::{Duration, Instant},
 };
 
+use gather::{Gather, price};
+use lanes::Lanes;
 use scattering::{Defect, Notice};
 
 use crate::{
@@ -18,7 +23,6 @@ use crate::{
     output::{Line, Outputs, Sink, Stream, head},
     region::Apertures,
     replay::Replay,
-    sampling::Layout,
     share::Shared,
     step::{Evaluated, Integral, Step},
     uncertainty::ErrorColumns,
@@ -31,8 +35,8 @@ const BLOCK_EVALUATIONS: f64 = 2e6;
 
 /// A block of a part should take about this long.
 const SHORT: Duration = Duration::from_millis(250);
-/// Evaluations of an adaptive integral, about; it may be a thousand times more.
-const ADAPTIVE_EVALUATIONS: f64 = 2e4;
+/// Steps of the first block of a run whose steps stand alone: it shows what a step costs.
+const FIRST_STEPS: usize = 32;
 
 /// What a finished run has to tell.
 #[derive(Debug, Default)]
@@ -197,17 +201,59 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// All blocks; while one is evaluated the next one is replayed.
+    /// All blocks.
     fn steps(&mut self) -> Result<(), Failure> {
         let started = Instant::now();
-        let mut gather = Gather {
-            job: self.job,
-            control: self.control,
-            replay: Replay::new(self.job),
-            part: self.part.clone(),
-            steps: 0,
+        let mut gather = Gather::new(self.job, self.control, self.part.clone());
+        if let Some(part) = &self.part {
+            gather.approach(part.start)?;
+        }
+        let first = gather.block(self.pace.min(FIRST_STEPS))?;
+        self.summary.steps = match Lanes::behind(gather) {
+            Ok(lanes) => self.side_by_side(first, lanes)?,
+            Err(gather) => self.one_by_one(first, gather)?,
         };
-        let mut block = gather.block(self.pace)?;
+        self.summary.seconds = started.elapsed().as_secs_f64();
+        self.summary.evaluations = self.meter.evaluations;
+        Ok(())
+    }
+
+    /// All blocks of steps that stand alone: some are replayed, then evaluated; gives their number.
+    fn side_by_side(&mut self, mut first: Vec<Step>, mut lanes: Lanes<'a>) -> Result<u64, Failure> {
+        if let Some(fraction) = first.last().map(|last| self.fraction(last)) {
+            self.evaluate(&mut first, None)?;
+            self.sink.block_done()?;
+            self.control.report(fraction);
+        }
+        let alone = self.fold.is_none() && self.job.lines_stand_alone();
+        loop {
+            let block_started = Instant::now();
+            if !lanes.replay(self.pace.saturating_mul(rayon::current_num_threads()))? {
+                return Ok(lanes.count());
+            }
+            let steps: Vec<&Step> = lanes.steps().collect();
+            let fraction = steps.last().map_or(1.0, |last| self.fraction(last));
+            let all = self.finished(&steps)?;
+            if alone {
+                lanes.fill(&all)?;
+                for ((step, line), finished) in lanes.lines().zip(&all) {
+                    emit(self.sink, step, line, finished)?;
+                }
+            } else {
+                for (step, finished) in steps.into_iter().zip(&all) {
+                    self.write(step, finished)?;
+                }
+            }
+            self.sink.block_done()?;
+            self.control.report(fraction);
+            self.keep_pace(block_started.elapsed());
+        }
+    }
+
+    /// All blocks, the first one at hand; while one is evaluated the next one is replayed. Gives
+    /// the number of steps.
+    fn one_by_one(&mut self, first: Vec<Step>, mut gather: Gather<'a>) -> Result<u64, Failure> {
+        let mut block = first;
         let mut done_with = Vec::new();
         while let Some(last) = block.last() {
             let fraction = self.fraction(last);
@@ -231,10 +277,7 @@ impl<'a> Runner<'a> {
             self.keep_pace(block_started.elapsed());
             done_with = std::mem::replace(&mut block, next?);
         }
-        self.summary.steps = gather.steps;
-        self.summary.seconds = started.elapsed().as_secs_f64();
-        self.summary.evaluations = self.meter.evaluations;
-        Ok(())
+        Ok(gather.next)
     }
 
     /// How much is done behind `step`.
@@ -262,28 +305,10 @@ impl<'a> Runner<'a> {
         block: &mut [Step],
         mut replay: Option<&mut Replay<'_>>,
     ) -> Result<(), Failure> {
-        let mut all = self.recalled(block)?;
-        let known = all.len();
-        if self.job.chained
-            && let Some(replay) = &mut replay
-        {
-            self.evaluate_chain(block, &mut all, replay)?;
-        } else {
-            let new = &block[known..];
-            let values = self.shared.evaluate(new, &mut self.meter)?;
-            let mut values = values.into_iter();
-            for step in new {
-                let values = values.by_ref().take(step.integrals.len()).collect();
-                all.push(Finished { values, samples: self.samples(step) });
-            }
-        }
-        self.summary.met.extend(self.shared.take_met());
-        if block.iter().flat_map(|step| &*step.integrals).any(is_cut_by_nist) {
-            self.summary.met.insert(Defect::PolygonHorizon.into());
-        }
-        if let Some(first) = block.get(known) {
-            self.journal.keep(first.index, &all[known..])?;
-        }
+        let all = match &mut replay {
+            Some(replay) if self.job.chained => self.evaluate_chain(block, replay)?,
+            _ => self.finished(&block.iter().collect::<Vec<_>>())?,
+        };
         for (step, finished) in block.iter().zip(&all) {
             self.write(step, finished)?;
             if let Some(replay) = &mut replay {
@@ -293,28 +318,54 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// Writes what `step` has to say: its part of the listing, its line, its samples.
-    fn write(&mut self, step: &Step, finished: &Finished) -> Result<(), Failure> {
-        if !step.listing.is_empty() {
-            self.sink.write(Stream::Listing, &step.listing)?;
+    /// Evaluates a block, except for what the journal has.
+    fn finished(&mut self, block: &[&Step]) -> Result<Vec<Finished>, Failure> {
+        let mut all = self.recalled(block.iter().copied())?;
+        let known = all.len();
+        let new = &block[known..];
+        let values = self.shared.evaluate(new, &mut self.meter)?;
+        let mut values = values.into_iter();
+        for step in new {
+            let values = values.by_ref().take(step.integrals.len()).collect();
+            all.push(Finished { values, samples: self.samples(step) });
         }
-        self.outputs
-            .fill(&mut self.line, step, &finished.values)
-            .map_err(|fault| at_step(step.index, fault))?;
-        self.sink.write(Stream::Results, &self.line.text)?;
-        self.sink.row(&self.line)?;
-        if let Some(fold) = &mut self.fold {
-            fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
+        self.keep(block.iter().copied(), known, &all)?;
+        Ok(all)
+    }
+
+    /// Notes what was met and keeps the steps behind the first `known` in the journal.
+    fn keep<'s>(
+        &mut self,
+        mut block: impl Iterator<Item = &'s Step> + Clone,
+        known: usize,
+        all: &[Finished],
+    ) -> Result<(), Failure> {
+        self.summary.met.extend(self.shared.take_met());
+        if block.clone().flat_map(|step| &*step.integrals).any(is_cut_by_nist) {
+            self.summary.met.insert(Defect::PolygonHorizon.into());
         }
-        if !finished.samples.is_empty() {
-            self.sink.write(Stream::Samples, &finished.samples)?;
+        if let Some(first) = block.nth(known) {
+            self.journal.keep(first.index, &all[known..])?;
         }
-        self.sink.step_done(step.index)?;
         Ok(())
     }
 
+    /// Makes the line of `step` and writes it.
+    fn write(&mut self, step: &Step, finished: &Finished) -> Result<(), Failure> {
+        self.outputs
+            .fill(&mut self.line, step, &finished.values)
+            .map_err(|fault| at_step(step.index, fault))?;
+        if let Some(fold) = &mut self.fold {
+            fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
+        }
+        emit(self.sink, step, &self.line, finished)
+    }
+
     /// What the journal has of the first steps of `block`.
-    fn recalled(&mut self, block: &[Step]) -> Result<Vec<Finished>, Failure> {
+    fn recalled<'s>(
+        &mut self,
+        block: impl Iterator<Item = &'s Step>,
+    ) -> Result<Vec<Finished>, Failure> {
         let mut known = Vec::new();
         for step in block {
             match self.journal.recall(step.index)? {
@@ -332,14 +383,14 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Integrals whose apertures read integrals before them, one after the other; the first steps
-    /// are in `all`, and so are the others in the end.
+    /// Integrals whose apertures read integrals before them, one after the other.
     fn evaluate_chain(
         &mut self,
         block: &mut [Step],
-        all: &mut Vec<Finished>,
         replay: &mut Replay<'_>,
-    ) -> Result<(), Failure> {
+    ) -> Result<Vec<Finished>, Failure> {
+        let mut all = self.recalled(block.iter())?;
+        let known = all.len();
         for (at, step) in block.iter_mut().enumerate() {
             let mut values = Vec::new();
             for (number, plan) in self.job.integrals.iter().enumerate() {
@@ -348,8 +399,7 @@ impl<'a> Runner<'a> {
                     Some(finished) => finished.values.get(number),
                     None => {
                         price(self.job, step)?;
-                        let only = std::slice::from_ref(&*step);
-                        values = self.shared.evaluate(only, &mut self.meter)?;
+                        values = self.shared.evaluate(&[step], &mut self.meter)?;
                         values.last()
                     }
                 };
@@ -364,68 +414,23 @@ impl<'a> Runner<'a> {
                 all.push(Finished { values, samples: self.samples(step) });
             }
         }
-        Ok(())
+        self.keep(block.iter(), known, &all)?;
+        Ok(all)
     }
 }
 
-/// Replays steps until there are enough of them.
-struct Gather<'a> {
-    job: &'a Job,
-    control: &'a Control,
-    replay: Replay<'a>,
-    /// The steps to be evaluated, unless all are.
-    part: Option<Range<u64>>,
-    /// Steps replayed so far.
-    steps: u64,
-}
-
-impl Gather<'_> {
-    /// The steps of the next block, at most `most`; empty behind the last step.
-    fn block(&mut self, most: usize) -> Result<Vec<Step>, Failure> {
-        let mut block = Vec::new();
-        let mut cost = 0.0;
-        while block.len() < most && cost < BLOCK_EVALUATIONS {
-            let index = self.steps;
-            if self.part.as_ref().is_some_and(|part| index >= part.end) {
-                break;
-            }
-            let step = self.replay.next_step().map_err(|fault| at_step(index, fault))?;
-            let Some(step) = step else { break };
-            self.steps += 1;
-            self.job.within_limit(self.steps)?;
-            if self.part.as_ref().is_some_and(|part| index < part.start) {
-                if self.control.is_cancelled() {
-                    return Err(Failure::Cancelled);
-                }
-                continue;
-            }
-            cost += price(self.job, &step)?;
-            block.push(step);
-        }
-        Ok(block)
+/// Writes what `step` has to say: its part of the listing, its line, its samples.
+fn emit(sink: &mut dyn Sink, step: &Step, line: &Line, finished: &Finished) -> Result<(), Failure> {
+    if !step.listing.is_empty() {
+        sink.write(Stream::Listing, &step.listing)?;
     }
-}
-
-/// About how many directions the integrals of `step` have.
-fn price(job: &Job, step: &Step) -> Result<f64, Failure> {
-    let limit = job.options.limits.directions;
-    let mut cost = 0.0;
-    for (integral, plan) in step.integrals.iter().zip(&job.integrals) {
-        if integral.demand.is_some() {
-            cost += ADAPTIVE_EVALUATIONS;
-            continue;
-        }
-        let estimate = Layout::estimate(&integral.region, &integral.sampling);
-        if estimate > limit {
-            return Err(Failure::Limit(format!(
-                "{} would have {estimate:.3e} directions, more than {limit:e}: \
-                 make differential larger or minsamples and polygonsides smaller",
-                plan.name
-            )));
-        }
-        cost += estimate;
+    sink.write(Stream::Results, &line.text)?;
+    sink.row(line)?;
+    if !finished.samples.is_empty() {
+        sink.write(Stream::Samples, &finished.samples)?;
     }
-    Ok(cost)
+    sink.step_done(step.index)?;
+    Ok(())
 }
 
 /// Whether the aperture is the true one of a shape for which NIST's program takes a polygon.

@@ -70,6 +70,17 @@ impl Object {
             .help_if(did_you_mean(name, known))
     }
 
+    /// Whether `path` names a parameter of this object or of one in it.
+    pub(crate) fn owns(&self, path: &str) -> bool {
+        let (name, rest) = path.split_once('.').map_or((path, None), |(n, r)| (n, Some(r)));
+        let Some((at, _)) = self.class.parameter(name) else { return false };
+        match (rest, &self.slots[at]) {
+            (None, _) => true,
+            (Some(rest), Slot::Member(object)) => object.owns(rest),
+            (Some(_), _) => false,
+        }
+    }
+
     /// The value of the parameter `lambda`, if there is one.
     pub(crate) fn wavelength(&self) -> Option<f64> {
         let (at, _) = self.class.parameter("lambda")?;

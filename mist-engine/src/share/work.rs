@@ -128,12 +128,25 @@ struct Todo {
     /// The key that was looked for last, and its place.
     last: Option<(Key, usize)>,
     work: Vec<Work>,
+    /// What the work gave.
+    done: Vec<Result<(Found, u64), Undone>>,
     /// The integrals that were looked at last, and where they collect light.
     integrals: Option<Arc<Vec<Integral>>>,
     apertures: Vec<(Aperture, Place)>,
 }
 
 impl Todo {
+    /// Makes room for the next block; the memory is used again.
+    fn forget(&mut self) {
+        self.places.clear();
+        self.found.clear();
+        self.known.clear();
+        self.last = None;
+        self.work.clear();
+        self.integrals = None;
+        self.apertures.clear();
+    }
+
     /// Where `integrals` collect light.
     fn look_at(&mut self, integrals: &Arc<Vec<Integral>>, layouts: &Map<LayoutKey, Numbered>) {
         if self.integrals.as_ref().is_some_and(|before| Arc::ptr_eq(before, integrals)) {
@@ -162,6 +175,8 @@ pub(crate) struct Shared<'a> {
     next_layout: u64,
     integrals: Kept<Key, Found>,
     met: BTreeSet<Notice>,
+    /// Empty between two blocks.
+    todo: Todo,
 }
 
 impl<'a> Shared<'a> {
@@ -174,6 +189,7 @@ impl<'a> Shared<'a> {
             next_layout: 0,
             integrals: Kept::up_to(KEPT_INTEGRALS),
             met: BTreeSet::new(),
+            todo: Todo::default(),
         }
     }
 
@@ -182,11 +198,11 @@ impl<'a> Shared<'a> {
     /// All steps of a block have the same number of integrals.
     pub(crate) fn evaluate(
         &mut self,
-        block: &[Step],
+        block: &[&Step],
         meter: &mut Meter<'_>,
     ) -> Result<Vec<Evaluated>, Failure> {
         let layouts = self.lay_out(block)?;
-        let mut todo = Todo::default();
+        let mut todo = std::mem::take(&mut self.todo);
         for (at, step) in block.iter().enumerate() {
             self.find(at, step, &layouts, &mut todo);
         }
@@ -195,11 +211,14 @@ impl<'a> Shared<'a> {
         meter.add(spent).map_err(Failure::Limit)?;
         let integrals = block.iter().flat_map(|step| &*step.integrals);
         let value = |(integral, place): (&Integral, &usize)| todo.found[*place].evaluated(integral);
-        Ok(integrals.zip(&todo.places).map(value).collect())
+        let values = integrals.zip(&todo.places).map(value).collect();
+        todo.forget();
+        self.todo = todo;
+        Ok(values)
     }
 
     /// The layout of every area in the block, made in parallel where it is new.
-    fn lay_out(&mut self, block: &[Step]) -> Result<Map<LayoutKey, Numbered>, Failure> {
+    fn lay_out(&mut self, block: &[&Step]) -> Result<Map<LayoutKey, Numbered>, Failure> {
         let mut layouts = Map::default();
         let mut wanted: Vec<(LayoutKey, (usize, usize))> = Vec::new();
         let mut seen = BTreeSet::new();
@@ -280,13 +299,13 @@ impl<'a> Shared<'a> {
 
     /// Does the work and keeps what came out; says how many evaluations of the model it cost
     /// beyond those that were known before.
-    fn do_all(&mut self, block: &[Step], todo: &mut Todo) -> Result<f64, Failure> {
+    fn do_all(&mut self, block: &[&Step], todo: &mut Todo) -> Result<f64, Failure> {
         let stop = || self.control.is_cancelled();
         let basis = self.job.basis;
-        let done: Vec<Result<(Found, u64), Undone>> =
-            todo.work.par_iter().map(|piece| piece.compute(basis, &stop)).collect();
+        let all = todo.work.par_iter().map(|piece| piece.compute(basis, &stop));
+        all.collect_into_vec(&mut todo.done);
         let mut spent = 0.0;
-        for (piece, result) in todo.work.iter().zip(done) {
+        for (piece, result) in todo.work.iter().zip(todo.done.drain(..)) {
             let fault = match result {
                 Ok((found, evaluations)) => {
                     spent += evaluations as f64;
@@ -310,7 +329,7 @@ impl<'a> Shared<'a> {
 
     fn failure(
         &self,
-        block: &[Step],
+        block: &[&Step],
         (at, number): (usize, usize),
         fault: impl FnOnce(usize) -> Fault,
     ) -> Failure {

@@ -1,0 +1,107 @@
+//! Replaying steps until there are enough of them to be evaluated together.
+
+use std::ops::Range;
+
+use super::{BLOCK_EVALUATIONS, at_step};
+use crate::{
+    Control, Failure, Job,
+    replay::{Replay, alone::Alone},
+    sampling::Layout,
+    step::Step,
+};
+
+/// Evaluations of an adaptive integral, about; it may be a thousand times more.
+const ADAPTIVE_EVALUATIONS: f64 = 2e4;
+
+/// A replay and how far it is.
+pub(super) struct Gather<'a> {
+    pub(super) job: &'a Job,
+    pub(super) control: &'a Control,
+    pub(super) replay: Replay<'a>,
+    /// The steps to be evaluated, unless all are.
+    pub(super) part: Option<Range<u64>>,
+    /// The number of the next step.
+    pub(super) next: u64,
+    /// About how many directions the steps gathered last have.
+    pub(super) cost: f64,
+}
+
+impl<'a> Gather<'a> {
+    pub(super) fn new(job: &'a Job, control: &'a Control, part: Option<Range<u64>>) -> Self {
+        Self { job, control, replay: Replay::new(job), part, next: 0, cost: 0.0 }
+    }
+
+    /// The steps of the next block, at most `most`; empty behind the last step.
+    pub(super) fn block(&mut self, most: usize) -> Result<Vec<Step>, Failure> {
+        let mut block = Vec::new();
+        self.add(&mut block, most, BLOCK_EVALUATIONS)?;
+        Ok(block)
+    }
+
+    /// Puts the next steps into `block`, at most `most` and until their evaluations are `enough`.
+    pub(super) fn add(
+        &mut self,
+        block: &mut Vec<Step>,
+        most: usize,
+        enough: f64,
+    ) -> Result<(), Failure> {
+        self.cost = 0.0;
+        while block.len() < most && self.cost < enough {
+            let index = self.next;
+            if self.part.as_ref().is_some_and(|part| index >= part.end) {
+                break;
+            }
+            let step = self.replay.next_step().map_err(|fault| at_step(index, fault))?;
+            let Some(step) = step else { break };
+            self.next += 1;
+            self.job.within_limit(self.next)?;
+            if self.part.as_ref().is_some_and(|part| index < part.start) {
+                if self.control.is_cancelled() {
+                    return Err(Failure::Cancelled);
+                }
+                continue;
+            }
+            self.cost += price(self.job, &step)?;
+            // Computed here, so that lanes do it side by side.
+            step.parameters.fingerprint();
+            block.push(step);
+        }
+        Ok(())
+    }
+
+    /// Goes from the beginning to step `to` if that is possible without making the steps before.
+    pub(super) fn approach(&mut self, to: u64) -> Result<(), Failure> {
+        let Some(alone) = Alone::new(self.job).filter(|_| to > 1) else { return Ok(()) };
+        self.skip_to(1)?;
+        if alone.holds_for(self.replay.parameters()) { self.skip_to(to) } else { Ok(()) }
+    }
+
+    /// Goes on to step `to` without making the steps before it.
+    pub(super) fn skip_to(&mut self, to: u64) -> Result<(), Failure> {
+        self.replay.skip_to(to).map_err(|fault| at_step(self.next, fault))?;
+        self.next = to;
+        Ok(())
+    }
+}
+
+/// About how many directions the integrals of `step` have.
+pub(super) fn price(job: &Job, step: &Step) -> Result<f64, Failure> {
+    let limit = job.options.limits.directions;
+    let mut cost = 0.0;
+    for (integral, plan) in step.integrals.iter().zip(&job.integrals) {
+        if integral.demand.is_some() {
+            cost += ADAPTIVE_EVALUATIONS;
+            continue;
+        }
+        let estimate = Layout::estimate(&integral.region, &integral.sampling);
+        if estimate > limit {
+            return Err(Failure::Limit(format!(
+                "{} would have {estimate:.3e} directions, more than {limit:e}: \
+                 make differential larger or minsamples and polygonsides smaller",
+                plan.name
+            )));
+        }
+        cost += estimate;
+    }
+    Ok(cost)
+}

@@ -1,0 +1,123 @@
+//! Several replays side by side, for jobs whose steps stand alone.
+//!
+//! Each lane replays every n-th stretch of steps, and writes the lines of its own steps, so that
+//! they stay with one processor. The lines come out in the order of the steps.
+
+use rayon::prelude::*;
+
+use super::{BLOCK_EVALUATIONS, BLOCK_STEPS, Gather, at_step};
+use crate::{
+    Failure,
+    journal::Finished,
+    output::{Line, Outputs},
+    replay::alone::Alone,
+    step::Step,
+};
+
+/// A replay, the steps it has made, and their lines.
+struct Lane<'a> {
+    gather: Gather<'a>,
+    steps: Vec<Step>,
+    outputs: Outputs<'a>,
+    lines: Vec<Line>,
+}
+
+/// The lanes, in the order of the steps that they hold.
+pub(super) struct Lanes<'a> {
+    lanes: Vec<Lane<'a>>,
+    /// The first step that no lane has made yet.
+    next: u64,
+    /// Evaluations of a step, about.
+    cost: f64,
+}
+
+impl<'a> Lanes<'a> {
+    /// The lanes that go on where `gather` is, one per thread; gives `gather` back where there
+    /// is to be only one.
+    pub(super) fn behind(gather: Gather<'a>) -> Result<Self, Gather<'a>> {
+        let (job, threads) = (gather.job, rayon::current_num_threads());
+        let holds = |alone: Alone<'_>| alone.holds_for(gather.replay.parameters());
+        if threads < 2 || !Alone::new(job).is_some_and(holds) {
+            return Err(gather);
+        }
+        let lane = |gather| Lane {
+            gather,
+            steps: Vec::new(),
+            outputs: Outputs::new(job),
+            lines: Vec::new(),
+        };
+        let (control, part, next) = (gather.control, gather.part.clone(), gather.next);
+        let mut lanes = vec![lane(gather)];
+        lanes.extend((1..threads).map(|_| lane(Gather::new(job, control, part.clone()))));
+        Ok(Self { lanes, next, cost: 1.0 })
+    }
+
+    /// Replays the next steps, at most `most` in all lanes together but one in each; false if
+    /// there are none.
+    pub(super) fn replay(&mut self, most: usize) -> Result<bool, Failure> {
+        let count = self.lanes.len();
+        let enough = (BLOCK_EVALUATIONS / self.cost.max(1.0)) as usize;
+        let each = (most.min(enough) / count).clamp(1, BLOCK_STEPS);
+        let starts = (self.next..).step_by(each);
+        let replayed: Vec<Result<(), Failure>> = self
+            .lanes
+            .par_iter_mut()
+            .zip(starts.take(count).collect::<Vec<_>>())
+            .map(|(lane, start)| {
+                // Memory goes back to the thread that took it.
+                lane.steps.clear();
+                lane.gather.skip_to(start)?;
+                lane.gather.add(&mut lane.steps, each, f64::INFINITY)
+            })
+            .collect();
+        replayed.into_iter().collect::<Result<(), Failure>>()?;
+        let steps = self.steps().count();
+        let cost: f64 = self.lanes.iter().map(|lane| lane.gather.cost).sum();
+        self.cost = cost / steps.max(1) as f64;
+        self.next += steps as u64;
+        Ok(steps > 0)
+    }
+
+    /// The steps replayed last.
+    pub(super) fn steps(&self) -> impl Iterator<Item = &Step> {
+        self.lanes.iter().flat_map(|lane| &lane.steps)
+    }
+
+    /// The number of steps replayed, of all that there were.
+    pub(super) fn count(&self) -> u64 {
+        self.next
+    }
+
+    /// Makes the lines of the steps, which came out as `all`.
+    pub(super) fn fill(&mut self, all: &[Finished]) -> Result<(), Failure> {
+        let mut rest = all;
+        let mut parts = Vec::with_capacity(self.lanes.len());
+        for lane in &self.lanes {
+            let (part, behind) = rest.split_at(lane.steps.len());
+            parts.push(part);
+            rest = behind;
+        }
+        let filled: Vec<Result<(), Failure>> =
+            self.lanes.par_iter_mut().zip(parts).map(|(lane, part)| lane.fill(part)).collect();
+        filled.into_iter().collect()
+    }
+
+    /// The steps and their lines.
+    pub(super) fn lines(&self) -> impl Iterator<Item = (&Step, &Line)> {
+        self.lanes.iter().flat_map(|lane| lane.steps.iter().zip(&lane.lines))
+    }
+}
+
+impl Lane<'_> {
+    fn fill(&mut self, all: &[Finished]) -> Result<(), Failure> {
+        if self.lines.len() < all.len() {
+            self.lines.resize_with(all.len(), Line::default);
+        }
+        for ((step, finished), line) in self.steps.iter().zip(all).zip(&mut self.lines) {
+            self.outputs
+                .fill(line, step, &finished.values)
+                .map_err(|fault| at_step(step.index, fault))?;
+        }
+        Ok(())
+    }
+}
