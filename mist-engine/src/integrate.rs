@@ -32,6 +32,17 @@ pub fn integrate(
     layout: &Layout,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Mueller> {
+    integrate_counting(model, incidence, basis, layout, stop).map(|(integral, _)| integral)
+}
+
+/// [`integrate`], with the number of directions.
+pub(crate) fn integrate_counting(
+    model: &Model,
+    incidence: &Incidence,
+    basis: Basis,
+    layout: &Layout,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Option<(Mueller, u64)> {
     let flip = sign(model);
     let total = |k| {
         layout.with_chunk(k, |chunk| {
@@ -45,16 +56,18 @@ pub fn integrate(
                     total.add(m, weight, flip);
                 }
             }
+            total.count = chunk.directions.len() as u64;
             total
         })
     };
     let sum = sum::ordered(layout.chunks(), stop, total)?;
-    Some(match layout.scale() {
+    let integral = match layout.scale() {
         Scale::Fixed(factor) => sum.matrix * factor,
         Scale::Normalized(area) => {
             Mueller(sum.matrix.0.map(|row| row.map(|x| x / sum.weight * area)))
         }
-    })
+    };
+    Some((integral, sum.count))
 }
 
 /// What a detector of the sensitivity `pol` sees of a Mueller integral under the light `inpol`.
@@ -141,6 +154,8 @@ fn turned(s: &Stokes, weight: &Weight, flip: f64) -> Stokes {
 struct Total {
     matrix: Mueller,
     weight: f64,
+    /// Directions.
+    count: u64,
 }
 
 impl Total {
@@ -154,6 +169,7 @@ impl AddAssign for Total {
     fn add_assign(&mut self, other: Self) {
         self.matrix += other.matrix;
         self.weight += other.weight;
+        self.count += other.count;
     }
 }
 

@@ -2,10 +2,13 @@
 //!
 //! A square grid or random points in a plane are projected onto a cone around the region, and
 //! the points above the horizon and inside the region are kept. A [`Layout`] depends neither on
-//! the wavelength nor on the model, so runs share it; large ones are not stored but laid out
-//! again, chunk by chunk, for every integral.
+//! the wavelength nor on the model, so runs share it; large ones, and those that one integral
+//! wants, are not stored but laid out chunk by chunk.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::{
+    f64::consts::{FRAC_PI_2, PI, TAU},
+    sync::OnceLock,
+};
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -53,7 +56,7 @@ const STORED: u64 = 1 << 18;
 #[derive(Clone, Debug)]
 pub struct Layout {
     plan: Plan,
-    stored: Option<Vec<Chunk>>,
+    stored: OnceLock<Vec<Chunk>>,
 }
 
 /// A part of a layout, in the order of evaluation.
@@ -130,9 +133,25 @@ impl Layout {
     /// For modes that do not exist, for polygons that cross themselves or reach below the
     /// horizon, and for what NIST's program never finishes.
     pub fn new(region: &Region, sampling: &Sampling) -> Result<Self, RegionError> {
-        let plan = Plan::new(region, sampling)?;
-        let stored = (plan.points() <= STORED).then(|| plan.all_chunks());
-        Ok(Self { plan, stored })
+        let layout = Self::planned(region, sampling)?;
+        layout.store();
+        Ok(layout)
+    }
+
+    /// [`Layout::new`] for a single integral: directions are made when they are evaluated.
+    ///
+    /// # Errors
+    ///
+    /// As [`Layout::new`].
+    pub(crate) fn planned(region: &Region, sampling: &Sampling) -> Result<Self, RegionError> {
+        Ok(Self { plan: Plan::new(region, sampling)?, stored: OnceLock::new() })
+    }
+
+    /// Stores the directions, unless there are too many.
+    pub(crate) fn store(&self) {
+        if self.plan.points() <= STORED {
+            self.stored.get_or_init(|| self.plan.all_chunks());
+        }
     }
 
     /// About how many directions and vertices a layout has, before it is made.
@@ -162,7 +181,7 @@ impl Layout {
 
     /// Hands chunk `k` to `use_it`.
     pub(crate) fn with_chunk<T>(&self, k: usize, use_it: impl FnOnce(&Chunk) -> T) -> T {
-        match &self.stored {
+        match self.stored.get() {
             Some(chunks) => use_it(&chunks[k]),
             None => use_it(&self.plan.chunk(k as u64)),
         }
@@ -179,17 +198,17 @@ impl Layout {
 
     /// How many directions it has; for a layout that is not stored, at most so many.
     pub fn directions(&self) -> usize {
-        match &self.stored {
+        match self.stored.get() {
             Some(chunks) => chunks.iter().map(|chunk| chunk.directions.len()).sum(),
             None => usize::try_from(self.plan.points()).unwrap_or(usize::MAX),
         }
     }
 
-    /// Memory of the stored directions, bytes.
+    /// Memory of the directions if they are stored, at most, bytes.
     pub fn bytes(&self) -> usize {
         let per_direction = size_of::<Direction>() + size_of::<Weight>();
-        let kept = self.stored.iter().flatten().map(|c| c.weights.capacity());
-        size_of::<Self>() + kept.sum::<usize>() * per_direction
+        let most = if self.plan.points() <= STORED { self.plan.points() as usize } else { 0 };
+        size_of::<Self>() + most * per_direction
     }
 }
 

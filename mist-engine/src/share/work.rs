@@ -13,7 +13,7 @@ use super::{
 use crate::{
     Control, Failure, Job,
     fault::Fault,
-    integrate::{Sample, adaptive_samples, contract, integrate, samples},
+    integrate::{Sample, adaptive_samples, contract, integrate_counting, samples},
     limits::Meter,
     parameters::Fingerprint,
     region::{Region, RegionError},
@@ -67,7 +67,7 @@ impl Place {
     fn area(integral: &Integral) -> Result<Self, RegionError> {
         Ok(match integral.demand {
             Some(demand) => Self::Adaptive(Arc::new((integral.region.clone(), demand))),
-            None => Self::Area(Arc::new(Layout::new(&integral.region, &integral.sampling)?)),
+            None => Self::Area(Arc::new(Layout::planned(&integral.region, &integral.sampling)?)),
         })
     }
 
@@ -128,6 +128,8 @@ struct Todo {
     /// The key that was looked for last, and its place.
     last: Option<(Key, usize)>,
     work: Vec<Work>,
+    /// Layouts that an earlier block has used.
+    again: Vec<Arc<Layout>>,
     /// What the work gave.
     done: Vec<Result<(Found, u64), Undone>>,
     /// The integrals that were looked at last, and where they collect light.
@@ -136,6 +138,19 @@ struct Todo {
 }
 
 impl Todo {
+    /// Stores the directions of layouts that more than one integral wants.
+    fn store_shared(&self) {
+        let mut wanted: Vec<&Arc<Layout>> = self.again.iter().collect();
+        wanted.extend(self.work.iter().filter_map(|piece| match &piece.place {
+            Place::Area(layout) => Some(layout),
+            _ => None,
+        }));
+        wanted.sort_unstable_by_key(|layout| Arc::as_ptr(layout));
+        let shared = wanted.chunk_by(|a, b| Arc::ptr_eq(a, b)).filter(|uses| uses.len() > 1);
+        let shared: Vec<&Arc<Layout>> = shared.map(|uses| uses[0]).collect();
+        shared.into_par_iter().for_each(|layout| layout.store());
+    }
+
     /// Makes room for the next block; the memory is used again.
     fn forget(&mut self) {
         self.places.clear();
@@ -143,6 +158,7 @@ impl Todo {
         self.known.clear();
         self.last = None;
         self.work.clear();
+        self.again.clear();
         self.integrals = None;
         self.apertures.clear();
     }
@@ -206,7 +222,7 @@ impl<'a> Shared<'a> {
         for (at, step) in block.iter().enumerate() {
             self.find(at, step, &layouts, &mut todo);
         }
-        meter.add(todo.work.iter().map(Work::evaluations).sum()).map_err(Failure::Limit)?;
+        todo.store_shared();
         let spent = self.do_all(block, &mut todo)?;
         meter.add(spent).map_err(Failure::Limit)?;
         let integrals = block.iter().flat_map(|step| &*step.integrals);
@@ -235,6 +251,9 @@ impl<'a> Shared<'a> {
                     continue;
                 }
                 if let Some(found) = self.layouts.get(&key) {
+                    if let Place::Area(layout) = &found.1 {
+                        self.todo.again.push(layout.clone());
+                    }
                     layouts.insert(key, found.clone());
                 } else {
                     seen.insert(key.clone());
@@ -297,8 +316,7 @@ impl<'a> Shared<'a> {
         }
     }
 
-    /// Does the work and keeps what came out; says how many evaluations of the model it cost
-    /// beyond those that were known before.
+    /// Does the work and keeps what came out; says how many evaluations of the model it took.
     fn do_all(&mut self, block: &[&Step], todo: &mut Todo) -> Result<f64, Failure> {
         let stop = || self.control.is_cancelled();
         let basis = self.job.basis;
@@ -393,22 +411,13 @@ impl<'a> Shared<'a> {
 }
 
 impl Work {
-    /// How many evaluations of the model it costs, as far as that is known before.
-    fn evaluations(&self) -> f64 {
-        match &self.place {
-            Place::Point(..) => 1.0,
-            Place::Area(layout) => layout.directions() as f64,
-            Place::Adaptive(_) => 0.0,
-        }
-    }
-
-    /// The Mueller integral, and the evaluations that were not known before.
+    /// The Mueller integral, and how many evaluations of the model it took.
     fn compute(
         &self,
         basis: scattering::Basis,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<(Found, u64), Undone> {
-        let exact = |matrix| (Found { matrix, error: None }, 0);
+        let exact = |(matrix, count)| (Found { matrix, error: None }, count);
         let built = || self.cell.get().map_err(|error| Undone::Parameter(error.clone()));
         match &self.place {
             Place::Point(theta, phi) => {
@@ -416,16 +425,16 @@ impl Work {
                 if !(self.incidence.is_above() && direction.is_above()) {
                     // NIST's program does not ask the model here either, so its errors do not
                     // matter.
-                    return Ok(exact(Mueller::ZERO));
+                    return Ok(exact((Mueller::ZERO, 1)));
                 }
                 let mut out = [Mueller::ZERO];
                 built()?.model.evaluate(&self.incidence, &[direction], basis, &mut out);
-                Ok(exact(out[0] * direction.cos))
+                Ok(exact((out[0] * direction.cos, 1)))
             }
             Place::Area(layout) => {
                 let model = &built()?.model;
-                let matrix = integrate(model, &self.incidence, basis, layout, stop);
-                matrix.map(exact).ok_or(Undone::Stopped)
+                let found = integrate_counting(model, &self.incidence, basis, layout, stop);
+                found.map(exact).ok_or(Undone::Stopped)
             }
             Place::Adaptive(aperture) => {
                 let (region, demand) = &**aperture;
