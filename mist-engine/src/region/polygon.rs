@@ -1,6 +1,9 @@
 //! Polygons in the plane of the sample, and which points NIST's rules put inside of them.
 
+mod slabs;
+
 use glam::DVec2;
+use slabs::Slabs;
 
 /// A polygon, closed from its last vertex to its first.
 #[derive(Clone, Debug)]
@@ -38,64 +41,6 @@ impl Edge {
     }
 }
 
-/// The edges sorted into slabs of x, so that a test looks at the few that can matter.
-///
-/// An edge whose two ends lie on the same side of a point in x is never counted, so leaving it
-/// out changes no decision.
-#[derive(Clone, Debug, Default)]
-struct Slabs {
-    low: f64,
-    high: f64,
-    per_x: f64,
-    /// Slab k holds `edges[starts[k]..starts[k + 1]]`.
-    starts: Vec<usize>,
-    edges: Vec<Edge>,
-}
-
-/// At most so many slabs: enough for outlines of a few thousand edges.
-const MOST_SLABS: usize = 1024;
-
-impl Slabs {
-    fn new(edges: &[Edge]) -> Self {
-        let xs = || edges.iter().map(|e| e.a.x);
-        let (low, high) =
-            (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
-        if edges.iter().any(|e| !e.a.is_finite()) || edges.is_empty() {
-            return Self::default();
-        }
-        let count = edges.len().clamp(1, MOST_SLABS);
-        let per_x = if high > low { count as f64 / (high - low) } else { 0.0 };
-        let mut slabs = Self { low, high, per_x, ..Self::default() };
-        let mut lists = vec![Vec::new(); count];
-        for edge in edges {
-            let (from, to) = (edge.a.x.min(edge.b.x), edge.a.x.max(edge.b.x));
-            for list in &mut lists[slabs.index(from, count)..=slabs.index(to, count)] {
-                list.push(*edge);
-            }
-        }
-        slabs.starts.push(0);
-        for list in lists {
-            slabs.edges.extend(list);
-            slabs.starts.push(slabs.edges.len());
-        }
-        slabs
-    }
-
-    /// The slab of `x`; a monotone function of it.
-    fn index(&self, x: f64, count: usize) -> usize {
-        (((x - self.low) * self.per_x) as usize).min(count - 1)
-    }
-
-    /// The edges that a point of abscissa `x` can count.
-    fn at(&self, x: f64) -> &[Edge] {
-        if self.starts.is_empty() || !(self.low <= x && x <= self.high) {
-            return &[];
-        }
-        let k = self.index(x, self.starts.len() - 1);
-        &self.edges[self.starts[k]..self.starts[k + 1]]
-    }
-}
-
 impl Polygon {
     /// The polygon with these vertices; few or none of them are fine.
     pub(crate) fn new(vertices: Vec<DVec2>) -> Self {
@@ -105,7 +50,7 @@ impl Polygon {
 
     /// Whether `p` is inside by the even–odd rule, with NIST's decisions for points on an edge.
     pub(crate) fn contains(&self, p: DVec2) -> bool {
-        self.slabs.at(p.x).iter().filter(|edge| edge.counts(p)).count() % 2 == 1
+        self.slabs.contain(p)
     }
 
     /// The absolute value of the shoelace sum.
@@ -157,6 +102,31 @@ mod tests {
         }
         for p in vertices.iter().chain(&[DVec2::new(0.9, 0.0)]) {
             assert_eq!(polygon.contains(*p), plain(*p), "{p}");
+        }
+    }
+
+    #[test]
+    fn points_in_line_with_the_vertices_of_rings_are_decided_by_their_edges() {
+        // Two rings joined by a bridge, a small one, and one with edges along the axes.
+        let ring = |radius: f64, count: usize| {
+            let step = std::f64::consts::TAU / count as f64;
+            (0..=count).map(move |k| DVec2::from_angle(step * k as f64) * radius)
+        };
+        let joined: Vec<DVec2> = ring(0.3, 90).chain(ring(0.7, 90)).collect();
+        let small: Vec<DVec2> = ring(1e-8, 40).collect();
+        let stairs = [(0.0, 0.0), (0.6, 0.0), (0.6, 0.2), (0.3, 0.2), (0.3, 0.5), (0.0, 0.5)];
+        let stairs = stairs.map(|(x, y)| DVec2::new(x, y)).to_vec();
+        for vertices in [joined, small, stairs] {
+            let polygon = Polygon::new(vertices.clone());
+            let plain = |p| edges(&vertices).filter(|e| e.counts(p)).count() % 2 == 1;
+            let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
+            for x in vertices.iter().flat_map(|v| [v.x, v.x + 1e-3 * reach]) {
+                let ys = (-60..=60).map(|k| 0.02 * reach * f64::from(k));
+                for y in ys.chain(vertices.iter().map(|v| v.y)) {
+                    let p = DVec2::new(x, y);
+                    assert_eq!(polygon.contains(p), plain(p), "{p}");
+                }
+            }
         }
     }
 

@@ -18,6 +18,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use super::{Shadow, sancer::lambda_and_erfc};
 use crate::{
     Direction, Incidence, Mueller,
+    geometry::Outgoing,
+    lanes::{Real, WIDTH},
     spec::{Class, Laws, Param, ParamError, Spec},
 };
 
@@ -45,18 +47,17 @@ struct Smith {
     w: f64,
 }
 
-/// Beyond this x, erfc x and Λ are below 2·10⁻¹⁷: g is 1 to the last bit.
+/// From this x on, erfc x and Λ are below 3·10⁻¹⁷: g is 1 to the last bit.
 const UNSHADOWED: f64 = 6.0;
 
 impl Smith {
-    /// g of a ray.
-    fn one_ray(&self, sin: f64, cos: f64) -> f64 {
-        let x = cos / sin.abs() * FRAC_1_SQRT_2 / self.w;
-        if x > UNSHADOWED {
-            return 1.0;
-        }
-        let (lambda, erfc) = lambda_and_erfc(x);
-        (1.0 - 0.5 * erfc) / (1.0 + lambda)
+    /// g of a ray, or of several.
+    #[inline(always)]
+    fn one_ray<R: Real>(&self, sin: R, cos: R) -> R {
+        let x = cos / sin.map(f64::abs) * FRAC_1_SQRT_2 / R::new(self.w);
+        let [lambda, erfc] = lambda_and_erfc(x);
+        let shadowed = (-(erfc * 0.5) + 1.0) / (lambda + 1.0);
+        (x - UNSHADOWED).choose(R::new(1.0), shadowed)
     }
 }
 
@@ -67,8 +68,17 @@ impl Shadow for Smith {
 
     fn shade(&self, incidence: &Incidence, directions: &[Direction], matrices: &mut [Mueller]) {
         let of_source = self.one_ray(incidence.sin, incidence.cos);
-        for (m, direction) in matrices.iter_mut().zip(directions) {
-            *m *= of_source * self.one_ray(direction.sin, direction.cos);
+        let (several, rest) = directions.as_chunks::<WIDTH>();
+        let (to, left) = matrices.as_chunks_mut::<WIDTH>();
+        for (directions, matrices) in several.iter().zip(to) {
+            let Outgoing { sin, cos, .. } = Outgoing::several(directions);
+            let fractions = self.one_ray(sin, cos) * of_source;
+            for (m, fraction) in matrices.iter_mut().zip(fractions.0) {
+                *m *= fraction;
+            }
+        }
+        for (m, direction) in left.iter_mut().zip(rest) {
+            *m *= self.one_ray(direction.sin, direction.cos) * of_source;
         }
     }
 }

@@ -1,0 +1,164 @@
+//! The edges of a polygon sorted into slabs of x, so that a test looks at the few that can matter.
+//!
+//! In most slabs the edges run from one side to the other in a few bands of y. Between two bands
+//! every point is inside or every point is outside, and no edge is looked at. The edges decide in
+//! the bands, and everywhere in a slab with a vertex that is the leftmost or the rightmost of its
+//! neighbours: NIST's rules count a vertex above a point by one of its two edges, which is the
+//! wrong number where the edges turn back.
+
+use glam::DVec2;
+
+use super::Edge;
+
+/// At most so many slabs: enough for outlines of a few thousand edges.
+const MOST_SLABS: usize = 1024;
+
+/// Closer to an edge than this the edge itself decides; far more than rounding, far less than a
+/// band is high.
+const MARGIN: f64 = 1e-9;
+
+/// An edge whose two ends lie on the same side of a point in x is never counted, so leaving it
+/// out changes no decision.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Slabs {
+    low: f64,
+    high: f64,
+    per_x: f64,
+    slabs: Vec<Slab>,
+    edges: Vec<Edge>,
+    bands: Vec<Band>,
+}
+
+/// The parts of the lists that belong to a slab.
+#[derive(Clone, Copy, Debug)]
+struct Slab {
+    edges: [u32; 2],
+    bands: [u32; 2],
+    /// Whether points above all bands are inside.
+    above: bool,
+}
+
+/// Where edges run, from below to above.
+#[derive(Clone, Copy, Debug)]
+struct Band {
+    from: f64,
+    to: f64,
+    /// Whether points between this band and the one below are inside.
+    below: bool,
+}
+
+impl Slabs {
+    pub(super) fn new(edges: &[Edge]) -> Self {
+        let xs = || edges.iter().map(|e| e.a.x);
+        let (low, high) =
+            (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+        if edges.iter().any(|e| !e.a.is_finite()) || edges.is_empty() {
+            return Self::default();
+        }
+        let count = edges.len().clamp(1, MOST_SLABS);
+        let per_x = if high > low { count as f64 / (high - low) } else { 0.0 };
+        let mut slabs = Self { low, high, per_x, ..Self::default() };
+        let mut lists = vec![Vec::new(); count];
+        for edge in edges {
+            let (from, to) = (edge.a.x.min(edge.b.x), edge.a.x.max(edge.b.x));
+            for list in &mut lists[slabs.index(from, count)..=slabs.index(to, count)] {
+                list.push(*edge);
+            }
+        }
+        let turns: Vec<f64> = turns(edges).collect();
+        for (k, list) in lists.iter().enumerate() {
+            slabs.push(k, list, &turns);
+        }
+        slabs
+    }
+
+    /// Adds slab `k`, which holds `edges`.
+    fn push(&mut self, k: usize, edges: &[Edge], turns: &[f64]) {
+        let first = self.edges.len();
+        self.edges.extend(edges);
+        let at = |k: usize| self.low + k as f64 / self.per_x;
+        let (left, right) = (at(k) - MARGIN, at(k + 1) + MARGIN);
+        let mut bands: Vec<Band> = Vec::new();
+        if turns.iter().any(|x| (left..=right).contains(x)) || self.per_x == 0.0 {
+            // One band for all points.
+            bands.push(Band { from: f64::NEG_INFINITY, to: f64::INFINITY, below: false });
+        } else {
+            bands.extend(edges.iter().filter_map(|edge| edge.band(left, right)));
+            bands.sort_unstable_by(|one, other| one.from.total_cmp(&other.from));
+            bands.dedup_by(|next, band| {
+                let touches = next.from <= band.to;
+                band.to = if touches { band.to.max(next.to) } else { band.to };
+                touches
+            });
+        }
+        // Between two bands any point tells about all.
+        let inside = |y: f64| counted(edges, DVec2::new(0.5 * (left + right), y));
+        let ends: Vec<f64> = bands.iter().map(|band| band.to).collect();
+        for (at, band) in bands.iter_mut().enumerate() {
+            let below = at.checked_sub(1).map(|below| ends[below]);
+            band.below = inside(below.map_or(band.from - 1.0, |end| 0.5 * (end + band.from)));
+        }
+        let above = ends.last().is_some_and(|end| inside(end + 1.0));
+        let first_band = self.bands.len();
+        self.bands.extend(bands);
+        self.slabs.push(Slab {
+            edges: [first as u32, self.edges.len() as u32],
+            bands: [first_band as u32, self.bands.len() as u32],
+            above,
+        });
+    }
+
+    /// The slab of `x`; a monotone function of it.
+    fn index(&self, x: f64, count: usize) -> usize {
+        (((x - self.low) * self.per_x) as usize).min(count - 1)
+    }
+
+    /// Whether `p` is inside of the polygon.
+    #[inline]
+    pub(super) fn contain(&self, p: DVec2) -> bool {
+        if self.slabs.is_empty() || !(self.low <= p.x && p.x <= self.high) {
+            return false;
+        }
+        let slab = &self.slabs[self.index(p.x, self.slabs.len())];
+        let [first, last] = slab.bands.map(|at| at as usize);
+        for band in &self.bands[first..last] {
+            if p.y < band.from {
+                return band.below;
+            }
+            if p.y <= band.to {
+                let [first, last] = slab.edges.map(|at| at as usize);
+                return counted(&self.edges[first..last], p);
+            }
+        }
+        slab.above
+    }
+}
+
+/// Whether a ray from `p` counts an odd number of `edges`.
+fn counted(edges: &[Edge], p: DVec2) -> bool {
+    edges.iter().filter(|edge| edge.counts(p)).count() % 2 == 1
+}
+
+/// The x of vertices whose neighbours lie on the same side of them, or above or below.
+fn turns(edges: &[Edge]) -> impl Iterator<Item = f64> + '_ {
+    let next = edges.iter().cycle().skip(1);
+    edges.iter().zip(next).filter_map(|(edge, next)| {
+        let (before, behind) = (edge.b.x - edge.a.x, next.b.x - next.a.x);
+        (!(before * behind > 0.0)).then_some(edge.b.x)
+    })
+}
+
+impl Edge {
+    /// Where it runs between the abscissas `left` and `right`, if it does; not for edges along y.
+    fn band(&self, left: f64, right: f64) -> Option<Band> {
+        let Self { a, b } = self;
+        let (from, to) = (left.max(a.x.min(b.x)), right.min(a.x.max(b.x)));
+        if from > to {
+            return None;
+        }
+        let at = |x: f64| a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)).clamp(0.0, 1.0);
+        let (one, other) = (at(from), at(to));
+        let (from, to) = (one.min(other) - MARGIN, one.max(other) + MARGIN);
+        Some(Band { from, to, below: false })
+    }
+}
