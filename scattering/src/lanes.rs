@@ -3,6 +3,8 @@
 //! A formula is written once over [`Real`] and works on one number or on [`Lanes`]. These are
 //! arrays whose loops become vector instructions; each lane goes through the operations of one
 //! number in their order, so a batch has the bits of its directions one by one, on every machine.
+//! [`with_widest`] lets the compiler use the instructions that this processor has beyond those that
+//! all of its kind have.
 
 use std::{
     f64::consts::LOG2_E,
@@ -12,7 +14,31 @@ use std::{
 use num_complex::Complex64;
 
 /// Numbers in [`Lanes`].
-pub(crate) const WIDTH: usize = 2;
+pub(crate) const WIDTH: usize = 4;
+
+/// Work on a batch that is worth the widest vectors of the processor.
+///
+/// `run` and what it calls must be inlined: only then is it compiled for them.
+pub(crate) trait Batch {
+    fn run(self);
+}
+
+/// Runs `batch`, compiled for the vectors of this processor: four numbers at once on most. No two
+/// operations become one, which would change bits.
+pub(crate) fn with_widest(batch: impl Batch) {
+    pulp::Arch::new().dispatch(Dispatched(batch));
+}
+
+struct Dispatched<B>(B);
+
+impl<B: Batch> pulp::WithSimd for Dispatched<B> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.0.run();
+    }
+}
 
 /// One number, or several that go the same way.
 pub(crate) trait Real:
@@ -62,14 +88,23 @@ pub(crate) trait Real:
         let shifted = within * LOG2_E + ROUNDING;
         let k = shifted - ROUNDING;
         let r = within - k * LN_2[0] - k * LN_2[1];
-        let mut sum = Self::new(SERIES[0]);
-        for coefficient in &SERIES[1..] {
-            sum = sum * r + *coefficient;
-        }
+        let sum = polynomial(&SERIES, r);
         let power = shifted.map(|x| f64::from_bits(x.to_bits().wrapping_add(1023) << 52));
         // NaN is passed on.
         (-self + LAST).choose(Self::new(0.0), sum * power)
     }
+}
+
+/// Σ c_k x^{n−k} of the coefficients c_0 … c_n: odd and even powers side by side, so that half
+/// of the operations wait for each other.
+#[inline(always)]
+pub(crate) fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
+    let square = x * x;
+    let mut sums = [R::new(0.0); 2];
+    for (at, coefficient) in coefficients.iter().rev().enumerate().rev() {
+        sums[at % 2] = sums[at % 2] * square + *coefficient;
+    }
+    sums[1] * x + sums[0]
 }
 
 /// e^x is 0 from here on.
@@ -314,7 +349,7 @@ mod tests {
             let w = z.over(Complex { re: y, im: x * 2.0 + 1.0 }) * (x * x + y).sqrt();
             (x - y).choose((-(w.norm_sqr())).exp_falling(), w.re / y)
         }
-        let (x, y) = ([0.1, 7.0], [0.4, 6.9]);
+        let (x, y) = ([0.1, 7.0, 0.2, 1e-3], [0.4, 6.9, 0.3, 0.0]);
         let all = formula(Lanes(x), Lanes(y));
         for k in 0..WIDTH {
             assert_eq!(all.0[k].to_bits(), formula(x[k], y[k]).to_bits());

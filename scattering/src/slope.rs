@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use crate::{
     Defect,
-    lanes::WIDTH,
+    lanes::{Batch, Lanes, Real, WIDTH},
     spec::{Family, Member, Node, ParamError, Spec},
 };
 
@@ -25,16 +25,39 @@ pub trait SlopeDistribution: Send + Sync {
     /// S(ζ_x, ζ_y), slopes in the frame of the sample.
     fn density(&self, zeta_x: f64, zeta_y: f64) -> f64;
 
-    /// S of several slopes (ζ_x, ζ_y).
+    /// Puts S of each of the slopes `zeta` (ζ_x, ζ_y) into `out`, which has their number.
     ///
     /// Overridden where a closed form works on several numbers at once; the bits do not change.
-    fn densities(&self, zeta: [[f64; WIDTH]; 2]) -> [f64; WIDTH] {
-        std::array::from_fn(|k| self.density(zeta[0][k], zeta[1][k]))
+    fn densities(&self, zeta: &[[[f64; WIDTH]; 2]], out: &mut [[f64; WIDTH]]) {
+        for ([x, y], out) in zeta.iter().zip(out) {
+            *out = std::array::from_fn(|k| self.density(x[k], y[k]));
+        }
     }
 
     /// Standard deviations of the slopes along x and y, where a closed form gives them.
     fn deviations(&self) -> Option<(f64, f64)> {
         None
+    }
+}
+
+/// A density with a closed form for one slope or several.
+trait ClosedForm {
+    fn at<R: Real>(&self, x: R, y: R) -> R;
+}
+
+/// [`SlopeDistribution::densities`] of a closed form.
+struct Densities<'a, S> {
+    form: &'a S,
+    zeta: &'a [[[f64; WIDTH]; 2]],
+    out: &'a mut [[f64; WIDTH]],
+}
+
+impl<S: ClosedForm> Batch for Densities<'_, S> {
+    #[inline(always)]
+    fn run(self) {
+        for ([x, y], out) in self.zeta.iter().zip(self.out) {
+            *out = self.form.at(Lanes(*x), Lanes(*y)).0;
+        }
     }
 }
 

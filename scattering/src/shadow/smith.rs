@@ -19,7 +19,7 @@ use super::{Shadow, sancer::lambda_and_erfc};
 use crate::{
     Direction, Incidence, Mueller,
     geometry::Outgoing,
-    lanes::{Real, WIDTH},
+    lanes::{Batch, Real, WIDTH, with_widest},
     spec::{Class, Laws, Param, ParamError, Spec},
 };
 
@@ -61,6 +61,27 @@ impl Smith {
     }
 }
 
+/// Matrices to be shadowed, several at a time.
+struct Shade<'a> {
+    smith: &'a Smith,
+    of_source: f64,
+    directions: &'a [[Direction; WIDTH]],
+    matrices: &'a mut [[Mueller; WIDTH]],
+}
+
+impl Batch for Shade<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for (directions, matrices) in self.directions.iter().zip(self.matrices) {
+            let Outgoing { sin, cos, .. } = Outgoing::several(directions);
+            let fractions = self.smith.one_ray(sin, cos) * self.of_source;
+            for (m, fraction) in matrices.iter_mut().zip(fractions.0) {
+                *m *= fraction;
+            }
+        }
+    }
+}
+
 impl Shadow for Smith {
     fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64 {
         self.one_ray(incidence.sin, incidence.cos) * self.one_ray(direction.sin, direction.cos)
@@ -68,15 +89,9 @@ impl Shadow for Smith {
 
     fn shade(&self, incidence: &Incidence, directions: &[Direction], matrices: &mut [Mueller]) {
         let of_source = self.one_ray(incidence.sin, incidence.cos);
-        let (several, rest) = directions.as_chunks::<WIDTH>();
-        let (to, left) = matrices.as_chunks_mut::<WIDTH>();
-        for (directions, matrices) in several.iter().zip(to) {
-            let Outgoing { sin, cos, .. } = Outgoing::several(directions);
-            let fractions = self.one_ray(sin, cos) * of_source;
-            for (m, fraction) in matrices.iter_mut().zip(fractions.0) {
-                *m *= fraction;
-            }
-        }
+        let (directions, rest) = directions.as_chunks();
+        let (matrices, left) = matrices.as_chunks_mut();
+        with_widest(Shade { smith: self, of_source, directions, matrices });
         for (m, direction) in left.iter_mut().zip(rest) {
             *m *= self.one_ray(direction.sin, direction.cos) * of_source;
         }

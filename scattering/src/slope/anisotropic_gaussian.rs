@@ -15,9 +15,9 @@
 
 use std::f64::consts::TAU;
 
-use super::{SlopeDistribution, width};
+use super::{ClosedForm, Densities, SlopeDistribution, width};
 use crate::{
-    lanes::{Lanes, Real, WIDTH},
+    lanes::{Real, WIDTH, with_widest},
     spec::{Class, Laws, Param, ParamError, Spec},
 };
 
@@ -62,7 +62,7 @@ struct AnisotropicGaussian {
     printed: bool,
 }
 
-impl AnisotropicGaussian {
+impl ClosedForm for AnisotropicGaussian {
     #[inline(always)]
     fn at<R: Real>(&self, x: R, y: R) -> R {
         let (a, b) = self.half_inverse;
@@ -77,9 +77,8 @@ impl SlopeDistribution for AnisotropicGaussian {
         self.at(x, y)
     }
 
-    fn densities(&self, zeta: [[f64; WIDTH]; 2]) -> [f64; WIDTH] {
-        let [x, y] = zeta.map(Lanes);
-        self.at(x, y).0
+    fn densities(&self, zeta: &[[[f64; WIDTH]; 2]], out: &mut [[f64; WIDTH]]) {
+        with_widest(Densities { form: self, zeta, out });
     }
 
     fn deviations(&self) -> Option<(f64, f64)> {

@@ -9,9 +9,9 @@
 
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2};
 
-use super::{SlopeDistribution, width};
+use super::{ClosedForm, Densities, SlopeDistribution, width};
 use crate::{
-    lanes::{Lanes, Real, WIDTH},
+    lanes::{Real, WIDTH, with_widest},
     spec::{Class, Laws, Param, Spec},
 };
 
@@ -40,7 +40,7 @@ struct Gaussian {
     inverse: f64,
 }
 
-impl Gaussian {
+impl ClosedForm for Gaussian {
     #[inline(always)]
     fn at<R: Real>(&self, x: R, y: R) -> R {
         (-(x * x + y * y) * self.inverse).exp_falling() * self.peak
@@ -52,9 +52,8 @@ impl SlopeDistribution for Gaussian {
         self.at(x, y)
     }
 
-    fn densities(&self, zeta: [[f64; WIDTH]; 2]) -> [f64; WIDTH] {
-        let [x, y] = zeta.map(Lanes);
-        self.at(x, y).0
+    fn densities(&self, zeta: &[[[f64; WIDTH]; 2]], out: &mut [[f64; WIDTH]]) {
+        with_widest(Densities { form: self, zeta, out });
     }
 
     fn deviations(&self) -> Option<(f64, f64)> {

@@ -9,7 +9,7 @@
 //!
 //! M. M. Shepherd and J. G. Laframboise, Math. Comp. 36, 249 (1981).
 
-use crate::lanes::Real;
+use crate::lanes::{Real, polynomial};
 
 /// Where t = 0.
 const MIDDLE: f64 = 3.75;
@@ -48,10 +48,7 @@ const SERIES: [f64; 25] = [
 #[inline(always)]
 pub(crate) fn falling_and_erfc<R: Real>(x: R) -> [R; 2] {
     let t = (x - MIDDLE) / (x + MIDDLE);
-    let mut sum = R::new(SERIES[0]);
-    for coefficient in &SERIES[1..] {
-        sum = sum * t + *coefficient;
-    }
+    let sum = polynomial(&SERIES, t);
     let falling = (-(x * x)).exp_falling();
     [falling, falling * sum / (x * 2.0 + 1.0)]
 }

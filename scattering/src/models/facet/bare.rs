@@ -30,7 +30,7 @@ use super::{
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
     geometry::Outgoing,
-    lanes::{Lanes, WIDTH},
+    lanes::{Batch, Lanes, WIDTH, with_widest},
     models::{Brdf, COMMON, Common},
     optics::film::{Films, Pair},
     polarization::muellers,
@@ -62,10 +62,49 @@ pub(crate) struct Facet {
     unturned: bool,
 }
 
+/// The slopes of the facets that reflect a beam into directions.
+struct Slopes<'a> {
+    incidence: &'a Incidence,
+    directions: &'a [[Direction; WIDTH]],
+    out: &'a mut [[[f64; WIDTH]; 2]],
+}
+
+impl Batch for Slopes<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for (directions, out) in self.directions.iter().zip(self.out) {
+            let facet = Tilted::between(self.incidence, &Outgoing::several(directions));
+            *out = facet.slopes.map(|slope| slope.0);
+        }
+    }
+}
+
+/// The matrices of facets whose slopes have known densities.
+struct Matrices<'a> {
+    facet: &'a Facet,
+    incidence: &'a Incidence,
+    directions: &'a [[Direction; WIDTH]],
+    densities: &'a [[f64; WIDTH]],
+    out: &'a mut [[Mueller; WIDTH]],
+}
+
+impl Batch for Matrices<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for ((directions, density), out) in self.directions.iter().zip(self.densities).zip(self.out)
+        {
+            self.facet.with_density(self.incidence, directions, Lanes(*density), out);
+        }
+    }
+}
+
 /// Squared sine of the local angle below which the library turns nothing, in reflection.
 const UNTURNED_REFLECTION: f64 = 1e-20;
 /// The same in transmission.
 const UNTURNED_TRANSMISSION: f64 = 1e-14;
+
+/// Groups of [`WIDTH`] directions whose slopes are held at a time.
+const GROUPS: usize = 32;
 
 impl Facet {
     pub(crate) fn read(node: &Node) -> Result<Self, ParamError> {
@@ -119,11 +158,29 @@ impl Facet {
     }
 
     /// The same for several directions and bare facets met from above, as matrices.
-    #[inline]
+    ///
+    /// There are at most [`GROUPS`] of them.
     fn reflections(
         &self,
         incidence: &Incidence,
+        directions: &[[Direction; WIDTH]],
+        out: &mut [[Mueller; WIDTH]],
+    ) {
+        let mut slopes = [[[0.0; WIDTH]; 2]; GROUPS];
+        let mut densities = [[0.0; WIDTH]; GROUPS];
+        let slopes = &mut slopes[..directions.len()];
+        let densities = &mut densities[..directions.len()];
+        with_widest(Slopes { incidence, directions, out: slopes });
+        self.slopes.densities(slopes, densities);
+        with_widest(Matrices { facet: self, incidence, directions, densities, out });
+    }
+
+    #[inline(always)]
+    fn with_density(
+        &self,
+        incidence: &Incidence,
         directions: &[Direction; WIDTH],
+        density: Lanes,
         out: &mut [Mueller; WIDTH],
     ) {
         let to = Outgoing::several(directions);
@@ -131,7 +188,6 @@ impl Facet {
         let turn = Turn::new(incidence, &to, to.cos);
         let norm = turn.norm();
         let jones = turn.elements(self.films.bare(facet.cos(), facet.sin2));
-        let density = Lanes(self.slopes.densities(facet.slopes.map(|slope| slope.0)));
         let weight = density * facet.elongation() / (to.cos * (4.0 * incidence.cos) * norm);
         muellers(jones, weight, out);
         for (k, m) in out.iter_mut().enumerate() {
@@ -207,7 +263,7 @@ impl Brdf for Facet {
         let (mut rest, mut left) = (directions, &mut *out);
         if self.common.side == Side::DownUp && self.films.is_bare() {
             let (several, to) = (directions.as_chunks().0, out.as_chunks_mut().0);
-            for (directions, out) in several.iter().zip(to) {
+            for (directions, out) in several.chunks(GROUPS).zip(to.chunks_mut(GROUPS)) {
                 self.reflections(incidence, directions, out);
             }
             let done = several.len() * WIDTH;

@@ -197,8 +197,8 @@ impl Brdf for Microroughness {
         let ((several, rest), (to, left)) = (directions.as_chunks(), out.as_chunks_mut());
         for (directions, out) in several.iter().zip(to) {
             let jones = self.elements(&beam, incidence, &Outgoing::several(directions));
-            let density = Lanes(directions.each_ref().map(|to| self.rough.density(incidence, to)));
-            muellers(jones, density, out);
+            let density = |to| self.rough.density(incidence, to);
+            muellers(jones, Lanes(directions.each_ref().map(density)), out);
         }
         for (m, direction) in left.iter_mut().zip(rest) {
             let jones = self.amplitude(&beam, incidence, direction);
