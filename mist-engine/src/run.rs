@@ -209,9 +209,11 @@ impl<'a> Runner<'a> {
             gather.approach(part.start)?;
         }
         let first = gather.block(self.pace.min(FIRST_STEPS))?;
-        self.summary.steps = match Lanes::behind(gather) {
-            Ok(lanes) => self.side_by_side(first, lanes)?,
-            Err(gather) => self.one_by_one(first, gather)?,
+        self.summary.steps = if Lanes::are_there(&gather) {
+            let lanes = Lanes::behind(gather, first.len());
+            self.side_by_side(first, lanes)?
+        } else {
+            self.one_by_one(first, gather)?
         };
         self.summary.seconds = started.elapsed().as_secs_f64();
         self.summary.evaluations = self.meter.evaluations;
@@ -220,10 +222,10 @@ impl<'a> Runner<'a> {
 
     /// All blocks of steps that stand alone: some are replayed, then evaluated; gives their number.
     fn side_by_side(&mut self, mut first: Vec<Step>, mut lanes: Lanes<'a>) -> Result<u64, Failure> {
+        let block_started = Instant::now();
         if let Some(fraction) = first.last().map(|last| self.fraction(last)) {
             self.evaluate(&mut first, None)?;
-            self.sink.block_done()?;
-            self.control.report(fraction);
+            self.end_block(fraction, block_started)?;
         }
         let alone = self.fold.is_none() && self.job.lines_stand_alone();
         loop {
@@ -244,9 +246,7 @@ impl<'a> Runner<'a> {
                     self.write(step, finished)?;
                 }
             }
-            self.sink.block_done()?;
-            self.control.report(fraction);
-            self.keep_pace(block_started.elapsed());
+            self.end_block(fraction, block_started)?;
         }
     }
 
@@ -272,12 +272,18 @@ impl<'a> Runner<'a> {
                 done?;
                 next
             };
-            self.sink.block_done()?;
-            self.control.report(fraction);
-            self.keep_pace(block_started.elapsed());
+            self.end_block(fraction, block_started)?;
             done_with = std::mem::replace(&mut block, next?);
         }
         Ok(gather.next)
+    }
+
+    /// Tells that a block is written.
+    fn end_block(&mut self, fraction: f64, started: Instant) -> Result<(), Failure> {
+        self.sink.block_done()?;
+        self.control.report(fraction);
+        self.keep_pace(started.elapsed());
+        Ok(())
     }
 
     /// How much is done behind `step`.

@@ -112,3 +112,6 @@ fn is_last(parameter: (usize, &str), sent: &[(usize, &str)]) -> bool {
         !below_it && (!is_below(name, other_name) || *other < at)
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -29,27 +29,32 @@ pub(super) struct Lanes<'a> {
     next: u64,
     /// Evaluations of a step, about.
     cost: f64,
+    /// How many steps a lane made last, at most.
+    each: usize,
 }
 
 impl<'a> Lanes<'a> {
-    /// The lanes that go on where `gather` is, one per thread; gives `gather` back where there
-    /// is to be only one.
-    pub(super) fn behind(gather: Gather<'a>) -> Result<Self, Gather<'a>> {
-        let (job, threads) = (gather.job, rayon::current_num_threads());
+    /// Whether several lanes can go on where `gather` is.
+    pub(super) fn are_there(gather: &Gather<'a>) -> bool {
         let holds = |alone: Alone<'_>| alone.holds_for(gather.replay.parameters());
-        if threads < 2 || !Alone::new(job).is_some_and(holds) {
-            return Err(gather);
-        }
+        rayon::current_num_threads() > 1 && Alone::new(gather.job).is_some_and(holds)
+    }
+
+    /// The lanes that go on where `gather` is, one per thread, behind a first block of `count`
+    /// steps.
+    pub(super) fn behind(gather: Gather<'a>, count: usize) -> Self {
+        let (job, threads) = (gather.job, rayon::current_num_threads());
         let lane = |gather| Lane {
             gather,
             steps: Vec::new(),
             outputs: Outputs::new(job),
             lines: Vec::new(),
         };
+        let cost = gather.cost / count.max(1) as f64;
         let (control, part, next) = (gather.control, gather.part.clone(), gather.next);
         let mut lanes = vec![lane(gather)];
         lanes.extend((1..threads).map(|_| lane(Gather::new(job, control, part.clone()))));
-        Ok(Self { lanes, next, cost: 1.0 })
+        Self { lanes, next, cost, each: count.max(1) }
     }
 
     /// Replays the next steps, at most `most` in all lanes together but one in each; false if
@@ -57,7 +62,9 @@ impl<'a> Lanes<'a> {
     pub(super) fn replay(&mut self, most: usize) -> Result<bool, Failure> {
         let count = self.lanes.len();
         let enough = (BLOCK_EVALUATIONS / self.cost.max(1.0)) as usize;
-        let each = (most.min(enough) / count).clamp(1, BLOCK_STEPS);
+        // Steps may become dearer: so the blocks grow slowly.
+        let each = (most.min(enough) / count).clamp(1, BLOCK_STEPS.min(2 * self.each));
+        self.each = each;
         let starts = (self.next..).step_by(each);
         let replayed: Vec<Result<(), Failure>> = self
             .lanes
