@@ -1,3 +1,5 @@
+//! Programs whose steps stand alone, and programs whose steps do not.
+
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
