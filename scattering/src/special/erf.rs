@@ -69,6 +69,5 @@ mod tests {
             let expected = (-x * x).exp();
             assert!((falling - expected).abs() <= tolerance * expected, "{x}");
         }
-        assert_eq!(falling_and_erfc(0.0), [1.0, 1.0]);
     }
 }
