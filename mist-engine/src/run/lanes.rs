@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use super::{BLOCK_EVALUATIONS, BLOCK_STEPS, Gather, at_step};
+use super::{BLOCK_EVALUATIONS, Gather, at_step};
 use crate::{
     Failure,
     journal::Finished,
@@ -13,6 +13,9 @@ use crate::{
     replay::alone::Alone,
     step::Step,
 };
+
+/// Steps that a lane makes at a time, at most: the last lanes have none of them in the end.
+const STRETCH: usize = 256;
 
 /// A replay, the steps it has made, and their lines.
 struct Lane<'a> {
@@ -63,7 +66,7 @@ impl<'a> Lanes<'a> {
         let count = self.lanes.len();
         let enough = (BLOCK_EVALUATIONS / self.cost.max(1.0)) as usize;
         // Steps may become dearer: so the blocks grow slowly.
-        let each = (most.min(enough) / count).clamp(1, BLOCK_STEPS.min(2 * self.each));
+        let each = (most.min(enough) / count).clamp(1, STRETCH.min(2 * self.each));
         self.each = each;
         let starts = (self.next..).step_by(each);
         let replayed: Vec<Result<(), Failure>> = self
