@@ -1,26 +1,28 @@
-//! The sequential part of a run: what the expressions say, step by step.
+//! What the expressions of a program say, step by step.
 //!
 //! A replay owns the variables, the loops and the model's parameters, and yields one
 //! independent [`Step`] per combination of loop values. It never evaluates the model.
 
 pub(crate) mod alone;
+mod aperture;
 
 use std::{collections::BTreeSet, sync::Arc};
 
+use aperture::{Aperture, stokes};
 use mist_format::{
     Diagnostic, Program,
     expr::{EvalError, Expr, Stack, Value},
-    program::{Shape, Text},
+    program::Text,
 };
 use scattering::{Mode, Stokes};
 
 use crate::{
     Job,
-    fault::{Fault, fault, placed},
-    job::{Entry, IntegralPlan, Key},
+    fault::{Fault, placed},
+    job::Entry,
     parameters::Parameters,
     quirk::{Quirk, dialect},
-    region::{Apertures, Region},
+    region::Apertures,
     sampling::{Sampling, adaptive::Demand},
     scope::Scope,
     step::{Integral, Step},
@@ -516,7 +518,7 @@ impl<'j> Replay<'j> {
         incident: Stokes,
     ) -> Result<Integral, Fault> {
         let plan = &self.job.integrals[number];
-        let mut aperture = Aperture { inpol: incident, ..Aperture::default() };
+        let mut aperture = Aperture::under(incident);
         for (setting, known) in plan.settings.iter().zip(&mut self.settings[number]) {
             let is_same =
                 |known: &Known<Value>| self.scope.is_same_since(known.at, setting.expr.slots());
@@ -531,79 +533,6 @@ impl<'j> Replay<'j> {
             aperture.set(setting.key, value, &setting.text)?;
         }
         Ok(aperture.integral(plan, sampling, demand))
-    }
-}
-
-/// The parameters of an integral while they are read.
-#[derive(Default)]
-struct Aperture {
-    center: (f64, f64),
-    inner_center: (f64, f64),
-    alpha: f64,
-    inner_alpha: f64,
-    vertices: Vec<(f64, f64)>,
-    pol_center: (f64, f64),
-    pol: Option<Stokes>,
-    inpol: Stokes,
-}
-
-impl Aperture {
-    fn set(&mut self, key: Key, value: &Value, text: &Text) -> Result<(), Fault> {
-        match key {
-            Key::Center | Key::OuterCenter => self.center = direction(value, text)?,
-            Key::InnerCenter => self.inner_center = direction(value, text)?,
-            Key::Alpha | Key::OuterAlpha => self.alpha = value.number(),
-            Key::InnerAlpha => self.inner_alpha = value.number(),
-            Key::Vertex => self.vertices.push(direction(value, text)?),
-            Key::PolCenter => self.pol_center = direction(value, text)?,
-            Key::Pol => self.pol = Some(stokes(value, text)?),
-            Key::InPol => self.inpol = stokes(value, text)?,
-        }
-        Ok(())
-    }
-
-    fn integral(self, plan: &IntegralPlan, sampling: Sampling, demand: Option<Demand>) -> Integral {
-        let region = match plan.shape {
-            Shape::Differential => Region::Differential { center: self.center },
-            Shape::Circle => Region::around(self.center, self.alpha),
-            Shape::Hemi => Region::Hemi,
-            Shape::Annulus => Region::Annulus {
-                outer_center: self.center,
-                outer_alpha: self.alpha,
-                inner_center: self.inner_center,
-                inner_alpha: self.inner_alpha,
-            },
-            Shape::Polygon => {
-                Region::Polygon { vertices: self.vertices, polarization_center: self.pol_center }
-            }
-        };
-        let pol = self.pol.unwrap_or(Stokes::UNPOLARIZED);
-        Integral { region, sampling, demand, pol, inpol: self.inpol }
-    }
-}
-
-fn direction(value: &Value, text: &Text) -> Result<(f64, f64), Fault> {
-    match value.as_slice() {
-        [theta, phi, ..] => Ok((*theta, *phi)),
-        _ => {
-            let message = "a direction has two elements, (theta,phi)";
-            let found = fault("integral/direction", text, message);
-            Err(Box::new(found.help("write both angles, in radians: (0.3,0)")))
-        }
-    }
-}
-
-fn stokes(value: &Value, text: &Text) -> Result<Stokes, Fault> {
-    match value.as_slice() {
-        [i, q, u, v, ..] => Ok(Stokes([*i, *q, *u, *v])),
-        short => Err(Box::new(
-            Diagnostic::error(
-                "program/stokes",
-                text.span(),
-                format!("a Stokes vector has four elements, this has {}", short.len()),
-            )
-            .help("write (I,Q,U,V), such as (1,0,0,0) for unpolarized light"),
-        )),
     }
 }
 

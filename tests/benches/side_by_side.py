@@ -55,7 +55,10 @@ def arguments():
     parser.add_argument("--runs", type=int, default=5, help="runs of each program [%(default)s]")
     parser.add_argument("--threads", type=int, help="threads of mist [one per processor]")
     parser.add_argument("--only", metavar="REGEX", help="only programs with such names")
-    return parser.parse_args()
+    args = parser.parse_args()
+    if not shutil.which(args.mist):
+        parser.error(f"{args.mist} is not a program; `cargo build --release` makes target/release/mist")
+    return args
 
 
 def compare(case, args):

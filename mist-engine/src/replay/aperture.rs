@@ -1,0 +1,102 @@
+//! The parameters of an integral, from the values of their expressions.
+
+use mist_format::{
+    Diagnostic,
+    expr::Value,
+    program::{Shape, Text},
+};
+use scattering::Stokes;
+
+use crate::{
+    fault::{Fault, fault},
+    job::{IntegralPlan, Key},
+    region::Region,
+    sampling::{Sampling, adaptive::Demand},
+    step::Integral,
+};
+
+/// The parameters of an integral while they are read.
+#[derive(Default)]
+pub(super) struct Aperture {
+    center: (f64, f64),
+    inner_center: (f64, f64),
+    alpha: f64,
+    inner_alpha: f64,
+    vertices: Vec<(f64, f64)>,
+    pol_center: (f64, f64),
+    pol: Option<Stokes>,
+    inpol: Stokes,
+}
+
+impl Aperture {
+    /// Nothing but the incident light.
+    pub(super) fn under(inpol: Stokes) -> Self {
+        Self { inpol, ..Self::default() }
+    }
+
+    /// Takes what `text` gave for `key`.
+    pub(super) fn set(&mut self, key: Key, value: &Value, text: &Text) -> Result<(), Fault> {
+        match key {
+            Key::Center | Key::OuterCenter => self.center = direction(value, text)?,
+            Key::InnerCenter => self.inner_center = direction(value, text)?,
+            Key::Alpha | Key::OuterAlpha => self.alpha = value.number(),
+            Key::InnerAlpha => self.inner_alpha = value.number(),
+            Key::Vertex => self.vertices.push(direction(value, text)?),
+            Key::PolCenter => self.pol_center = direction(value, text)?,
+            Key::Pol => self.pol = Some(stokes(value, text)?),
+            Key::InPol => self.inpol = stokes(value, text)?,
+        }
+        Ok(())
+    }
+
+    /// The integral that `plan` makes of them.
+    pub(super) fn integral(
+        self,
+        plan: &IntegralPlan,
+        sampling: Sampling,
+        demand: Option<Demand>,
+    ) -> Integral {
+        let region = match plan.shape {
+            Shape::Differential => Region::Differential { center: self.center },
+            Shape::Circle => Region::around(self.center, self.alpha),
+            Shape::Hemi => Region::Hemi,
+            Shape::Annulus => Region::Annulus {
+                outer_center: self.center,
+                outer_alpha: self.alpha,
+                inner_center: self.inner_center,
+                inner_alpha: self.inner_alpha,
+            },
+            Shape::Polygon => {
+                Region::Polygon { vertices: self.vertices, polarization_center: self.pol_center }
+            }
+        };
+        let pol = self.pol.unwrap_or(Stokes::UNPOLARIZED);
+        Integral { region, sampling, demand, pol, inpol: self.inpol }
+    }
+}
+
+fn direction(value: &Value, text: &Text) -> Result<(f64, f64), Fault> {
+    match value.as_slice() {
+        [theta, phi, ..] => Ok((*theta, *phi)),
+        _ => {
+            let message = "a direction has two elements, (theta,phi)";
+            let found = fault("integral/direction", text, message);
+            Err(Box::new(found.help("write both angles, in radians: (0.3,0)")))
+        }
+    }
+}
+
+/// The Stokes vector that `text` gave.
+pub(super) fn stokes(value: &Value, text: &Text) -> Result<Stokes, Fault> {
+    match value.as_slice() {
+        [i, q, u, v, ..] => Ok(Stokes([*i, *q, *u, *v])),
+        short => Err(Box::new(
+            Diagnostic::error(
+                "program/stokes",
+                text.span(),
+                format!("a Stokes vector has four elements, this has {}", short.len()),
+            )
+            .help("write (I,Q,U,V), such as (1,0,0,0) for unpolarized light"),
+        )),
+    }
+}
