@@ -13,6 +13,9 @@ use crate::{
 /// Evaluations of an adaptive integral, about; it may be a thousand times more.
 const ADAPTIVE_EVALUATIONS: f64 = 2e4;
 
+/// Steps that are skipped before a wish to stop is heard.
+const SKIPPED: u64 = 1 << 16;
+
 /// A replay and how far it is.
 pub(super) struct Gather<'a> {
     pub(super) job: &'a Job,
@@ -78,8 +81,14 @@ impl<'a> Gather<'a> {
 
     /// Goes on to step `to` without making the steps before it.
     pub(super) fn skip_to(&mut self, to: u64) -> Result<(), Failure> {
-        self.replay.skip_to(to).map_err(|fault| at_step(self.next, fault))?;
-        self.next = to;
+        while self.next < to {
+            let near = to.min(self.next + SKIPPED);
+            self.replay.skip_to(near).map_err(|fault| at_step(self.next, fault))?;
+            self.next = near;
+            if self.control.is_cancelled() {
+                return Err(Failure::Cancelled);
+            }
+        }
         Ok(())
     }
 }
