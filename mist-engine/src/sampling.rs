@@ -21,12 +21,14 @@ pub mod adaptive;
 mod key;
 mod pattern;
 mod projection;
+mod run;
 pub(crate) mod turn;
 
 pub use key::LayoutKey;
 
 use pattern::Pattern;
-use projection::Projection;
+use projection::{DELICATE, Projection};
+use run::Run;
 use turn::Turn;
 
 /// What a program says about the sampling of its integrals.
@@ -104,6 +106,8 @@ pub(crate) enum Scale {
 #[derive(Clone, Debug)]
 struct Plan {
     pattern: Pattern,
+    /// No point of the plane is farther from its origin.
+    radius: f64,
     projection: Projection,
     frame: Frame,
     inside: Inside,
@@ -239,12 +243,13 @@ impl Plan {
             Scale::Fixed(projection.area_per_area() * pattern.area_per_point())
         };
         let frame = Frame::new(region.cone().axis);
-        Ok(Self { pattern, projection, frame, inside, turn, scale, apertures })
+        Ok(Self { pattern, radius, projection, frame, inside, turn, scale, apertures })
     }
 
     fn single(direction: Direction) -> Self {
         Self {
             pattern: Pattern::One,
+            radius: 0.0,
             projection: Projection::EqualArea,
             frame: Frame::new((0.0, 0.0)),
             inside: Inside::One(direction),
@@ -276,33 +281,61 @@ impl Plan {
         }
         let range = k * CHUNK..self.points().min((k + 1) * CHUNK);
         chunk.reserve(range.end - range.start);
+        let mut run = Run::default();
         self.pattern.for_each(range, |x, y| {
-            if let Some((direction, v, weight)) = self.direction(x, y) {
-                let (cos2b, sin2b) = self.turn.at(v);
-                chunk.push(direction, Weight { weight, cos2b, sin2b });
+            let p = DVec2::new(x, y);
+            if !run.takes(p) {
+                self.add(&run, &mut chunk);
+                run.clear();
             }
+            run.push(p);
         });
+        self.add(&run, &mut chunk);
         chunk
     }
 
+    /// Adds the points of `run` that belong to the region.
+    fn add(&self, run: &Run, chunk: &mut Chunk) {
+        let known = run.extent().and_then(|(middle, reach)| self.alike(middle, reach));
+        if known == Some(false) {
+            return;
+        }
+        for p in run.points() {
+            if let Some((direction, v, weight)) = self.direction(*p, known.is_some()) {
+                let (cos2b, sin2b) = self.turn.at(v);
+                chunk.push(direction, Weight { weight, cos2b, sin2b });
+            }
+        }
+    }
+
+    /// Whether all points of the plane closer to `middle` than `reach` lie in the polygon that the
+    /// region is, or none above the horizon does; nothing where that is not known.
+    fn alike(&self, middle: DVec2, reach: f64) -> Option<bool> {
+        let Inside::Polygon(polygon) = &self.inside else { return None };
+        let reach = reach * self.projection.longest(self.radius) + DELICATE;
+        let v = self.frame.turn(self.projection.lift(middle.x, middle.y).0);
+        if v.z < -reach { Some(false) } else { polygon.alike(v.truncate(), reach) }
+    }
+
     /// The direction of a point of the plane, its unit vector and its weight times cos θ, if it
-    /// belongs to the region.
-    fn direction(&self, x: f64, y: f64) -> Option<(Direction, DVec3, f64)> {
-        let (u, mut weight) = self.projection.lift(x, y);
+    /// belongs to the region; `is_inside` if nothing but the horizon is to be asked.
+    fn direction(&self, p: DVec2, is_inside: bool) -> Option<(Direction, DVec3, f64)> {
+        let (u, mut weight) = self.projection.lift(p.x, p.y);
         let mut v = self.frame.turn(u);
         if self.projection.is_delicate(u.z, v.z) {
-            let (u, same_weight) = self.projection.lift_by_angles(x, y);
+            let (u, same_weight) = self.projection.lift_by_angles(p.x, p.y);
             (v, weight) = (self.frame.turn(u), same_weight);
         }
         if v.z <= 0.0 {
             return None;
         }
-        let is_inside = match &self.inside {
-            Inside::Cone => true,
-            Inside::Polygon(polygon) => polygon.contains(projected(v)),
-            Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
-            Inside::One(_) => false,
-        };
+        let is_inside = is_inside
+            || match &self.inside {
+                Inside::Cone => true,
+                Inside::Polygon(polygon) => polygon.contains(projected(v)),
+                Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
+                Inside::One(_) => false,
+            };
         if !is_inside {
             return None;
         }

@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use crate::{
     Mode,
-    lanes::{Lanes, WIDTH},
+    lanes::{Vectors, WIDTH},
     polarization::{Beams, is_normal},
 };
 
@@ -273,10 +273,13 @@ impl Outgoing<f64> {
     }
 }
 
-impl Outgoing<Lanes> {
+impl<R> Outgoing<R> {
     #[inline(always)]
-    pub(crate) fn several(directions: &[Direction; WIDTH]) -> Self {
-        let each = |f: fn(&Direction) -> f64| Lanes(directions.each_ref().map(f));
+    pub(crate) fn several(
+        vectors: impl Vectors<Real = R>,
+        directions: &[Direction; WIDTH],
+    ) -> Self {
+        let each = |f: fn(&Direction) -> f64| vectors.load(&directions.each_ref().map(f));
         Self {
             sin: each(|d| d.sin),
             cos: each(|d| d.cos),

@@ -1,10 +1,11 @@
 //! Several numbers at once: closed forms for a batch of directions.
 //!
-//! A formula is written once over [`Real`] and works on one number or on [`Lanes`]. These are
-//! arrays whose loops become vector instructions; each lane goes through the operations of one
-//! number in their order, so a batch has the bits of its directions one by one, on every machine.
-//! [`with_widest`] lets the compiler use the instructions that this processor has beyond those that
-//! all of its kind have.
+//! A formula is written once over [`Real`] and works on one number or on several: on [`Lanes`],
+//! which are arrays, or in a [`Batch`] on the registers of this processor. Each lane goes through
+//! the operations of one number in their order, so a batch has the bits of its directions one by
+//! one, on every machine.
+
+mod wide;
 
 use std::{
     f64::consts::LOG2_E,
@@ -12,33 +13,10 @@ use std::{
 };
 
 use num_complex::Complex64;
+pub(crate) use wide::{Batch, Vectors, with_widest};
 
 /// Numbers in [`Lanes`].
 pub(crate) const WIDTH: usize = 4;
-
-/// Work on a batch that is worth the widest vectors of the processor.
-///
-/// `run` and what it calls must be inlined: only then is it compiled for them.
-pub(crate) trait Batch {
-    fn run(self);
-}
-
-/// Runs `batch`, compiled for the vectors of this processor: four numbers at once on most. No two
-/// operations become one, which would change bits.
-pub(crate) fn with_widest(batch: impl Batch) {
-    pulp::Arch::new().dispatch(Dispatched(batch));
-}
-
-struct Dispatched<B>(B);
-
-impl<B: Batch> pulp::WithSimd for Dispatched<B> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.0.run();
-    }
-}
 
 /// One number, or several that go the same way.
 pub(crate) trait Real:
@@ -51,15 +29,19 @@ pub(crate) trait Real:
     + Add<f64, Output = Self>
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
 {
     /// The number `x`, in every lane.
-    fn new(x: f64) -> Self;
+    fn all(self, x: f64) -> Self;
 
     /// `f` of each number.
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
 
-    /// `f` of each three numbers.
-    fn zip(x: [Self; 3], f: impl Fn([f64; 3]) -> f64) -> Self;
+    /// The absolute value.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.map(f64::abs)
+    }
 
     /// The square root.
     #[inline(always)]
@@ -74,24 +56,22 @@ pub(crate) trait Real:
     }
 
     /// `a` where this is not negative, `b` elsewhere.
-    #[inline(always)]
-    fn choose(self, a: Self, b: Self) -> Self {
-        Self::zip([self, a, b], |[x, a, b]| if x >= 0.0 { a } else { b })
-    }
+    fn choose(self, a: Self, b: Self) -> Self;
 
     /// e^x for x ≤ 0, to 2·10⁻¹⁶ of it; 0 from −708 on, where numbers begin to lose digits.
     ///
     /// 2^k times the series of e^r, |r| ≤ ln 2/2, whose first term left out is r¹⁴/14! < 4·10⁻¹⁸.
     #[inline(always)]
     fn exp_falling(self) -> Self {
-        let within = self.map(|x| if x < LAST { LAST } else { x });
+        let is_less = -self + LAST;
+        let within = is_less.choose(self.all(LAST), self);
         let shifted = within * LOG2_E + ROUNDING;
         let k = shifted - ROUNDING;
         let r = within - k * LN_2[0] - k * LN_2[1];
         let sum = polynomial(&SERIES, r);
         let power = shifted.map(|x| f64::from_bits(x.to_bits().wrapping_add(1023) << 52));
         // NaN is passed on.
-        (-self + LAST).choose(Self::new(0.0), sum * power)
+        is_less.choose(self.all(0.0), sum * power)
     }
 }
 
@@ -100,7 +80,7 @@ pub(crate) trait Real:
 #[inline(always)]
 pub(crate) fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
     let square = x * x;
-    let mut sums = [R::new(0.0); 2];
+    let mut sums = [x.all(0.0); 2];
     for (at, coefficient) in coefficients.iter().rev().enumerate().rev() {
         sums[at % 2] = sums[at % 2] * square + *coefficient;
     }
@@ -133,7 +113,7 @@ const SERIES: [f64; 14] = [
 
 impl Real for f64 {
     #[inline(always)]
-    fn new(x: f64) -> Self {
+    fn all(self, x: f64) -> Self {
         x
     }
 
@@ -143,8 +123,8 @@ impl Real for f64 {
     }
 
     #[inline(always)]
-    fn zip(x: [Self; 3], f: impl Fn([f64; 3]) -> f64) -> Self {
-        f(x)
+    fn choose(self, a: Self, b: Self) -> Self {
+        if self >= 0.0 { a } else { b }
     }
 }
 
@@ -152,10 +132,17 @@ impl Real for f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lanes(pub(crate) [f64; WIDTH]);
 
+impl Lanes {
+    /// The number `x` in every lane.
+    pub(crate) const fn new(x: f64) -> Self {
+        Self([x; WIDTH])
+    }
+}
+
 impl Real for Lanes {
     #[inline(always)]
-    fn new(x: f64) -> Self {
-        Self([x; WIDTH])
+    fn all(self, x: f64) -> Self {
+        Self::new(x)
     }
 
     #[inline(always)]
@@ -168,12 +155,12 @@ impl Real for Lanes {
     }
 
     #[inline(always)]
-    fn zip(x: [Self; 3], f: impl Fn([f64; 3]) -> f64) -> Self {
-        let mut all = [0.0; WIDTH];
+    fn choose(self, a: Self, b: Self) -> Self {
+        let mut all = b;
         for k in 0..WIDTH {
-            all[k] = f([x[0].0[k], x[1].0[k], x[2].0[k]]);
+            all.0[k] = self.0[k].choose(a.0[k], b.0[k]);
         }
-        Self(all)
+        all
     }
 }
 
@@ -238,7 +225,7 @@ impl<R: Real> Complex<R> {
     /// The real number `x`.
     #[inline(always)]
     pub(crate) fn real(x: R) -> Self {
-        Self { re: x, im: R::new(0.0) }
+        Self { re: x, im: x.all(0.0) }
     }
 
     /// −i z x.
@@ -262,7 +249,7 @@ impl<R: Real> Complex<R> {
     /// a/b.
     #[inline(always)]
     pub(crate) fn over(self, b: Self) -> Self {
-        self.times_conjugate(b) * (R::new(1.0) / b.norm_sqr())
+        self.times_conjugate(b) * (b.re.all(1.0) / b.norm_sqr())
     }
 }
 

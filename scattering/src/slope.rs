@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use crate::{
     Defect,
-    lanes::{Batch, Lanes, Real, WIDTH},
+    lanes::{Batch, Real, Vectors, WIDTH},
     spec::{Family, Member, Node, ParamError, Spec},
 };
 
@@ -54,9 +54,9 @@ struct Densities<'a, S> {
 
 impl<S: ClosedForm> Batch for Densities<'_, S> {
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Vectors>(self, vectors: V) {
         for ([x, y], out) in self.zeta.iter().zip(self.out) {
-            *out = self.form.at(Lanes(*x), Lanes(*y)).0;
+            *out = vectors.store(self.form.at(vectors.load(x), vectors.load(y)));
         }
     }
 }

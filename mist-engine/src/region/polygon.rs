@@ -9,8 +9,17 @@ use slabs::Slabs;
 #[derive(Clone, Debug)]
 pub(crate) struct Polygon {
     vertices: Vec<DVec2>,
+    /// Narrow ones, for points.
     slabs: Slabs,
+    /// Wide ones, for the surroundings of points.
+    wide: Slabs,
 }
+
+/// How many narrow slabs there are at least and at most, and how many per edge: enough for
+/// outlines of a few thousand edges.
+const NARROW: (usize, usize, usize) = (64, 1024, 2);
+/// How many wide slabs there are.
+const WIDE: usize = 48;
 
 /// One edge, from `a` to `b`.
 #[derive(Clone, Copy, Debug)]
@@ -44,13 +53,22 @@ impl Edge {
 impl Polygon {
     /// The polygon with these vertices; few or none of them are fine.
     pub(crate) fn new(vertices: Vec<DVec2>) -> Self {
-        let slabs = Slabs::new(&edges(&vertices).collect::<Vec<_>>());
-        Self { vertices, slabs }
+        let edges: Vec<Edge> = edges(&vertices).collect();
+        let (least, most, per_edge) = NARROW;
+        let slabs = Slabs::new(&edges, (per_edge * edges.len()).clamp(least, most));
+        let wide = Slabs::new(&edges, WIDE);
+        Self { vertices, slabs, wide }
     }
 
     /// Whether `p` is inside by the even–odd rule, with NIST's decisions for points on an edge.
     pub(crate) fn contains(&self, p: DVec2) -> bool {
         self.slabs.contain(p)
+    }
+
+    /// Whether all points closer to `p` than `reach` are inside, or all outside; nothing where
+    /// that is not known.
+    pub(crate) fn alike(&self, p: DVec2, reach: f64) -> Option<bool> {
+        self.wide.alike(p, reach)
     }
 
     /// The absolute value of the shoelace sum.

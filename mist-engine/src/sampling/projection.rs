@@ -1,5 +1,7 @@
 //! Projections of a disk onto a cone around the normal.
 
+use std::f64::consts::SQRT_2;
+
 use glam::DVec3;
 
 /// How a point at the distance ρ from the origin becomes a polar angle t.
@@ -15,7 +17,7 @@ pub(super) enum Projection {
 
 /// Closer to a horizon than this, sines and cosines are taken of angles, as NIST's program does:
 /// whether a point is kept can depend on their rounding.
-const DELICATE: f64 = 1e-9;
+pub(super) const DELICATE: f64 = 1e-9;
 
 impl Projection {
     /// The projection of a value of `integrationmode`.
@@ -39,6 +41,16 @@ impl Projection {
             Self::Equidistant => alpha,
             Self::EqualArea => (1.0 - alpha.cos()).sqrt(),
             Self::Orthographic => alpha.sin(),
+        }
+    }
+
+    /// How much longer than a way in the disk with this radius the way on the sphere is, at most.
+    pub(super) fn longest(self, radius: f64) -> f64 {
+        match self {
+            Self::Equidistant => 1.0,
+            // dt/dρ; across it is sin t/ρ = √(2 − ρ²).
+            Self::EqualArea => (2.0 / (2.0 - radius * radius).max(0.0).sqrt()).max(SQRT_2),
+            Self::Orthographic => 1.0 / (1.0 - radius * radius).max(0.0).sqrt(),
         }
     }
 

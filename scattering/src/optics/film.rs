@@ -261,8 +261,8 @@ impl Films {
         if self.growing && et.im == 0.0 {
             q.im = -q.im;
         }
-        let outer = Complex { re: q_outer, im: R::new(0.0) };
-        let (a, b) = (Complex { re: q_outer * et.re, im: q_outer * et.im }, q * R::new(e0));
+        let outer = Complex::real(q_outer);
+        let (a, b) = (Complex { re: q_outer * et.re, im: q_outer * et.im }, q * q_outer.all(e0));
         [(outer - q).over(outer + q), (a - b).over(a + b)]
     }
 
@@ -518,13 +518,13 @@ pub fn decaying_root(z: Complex64) -> Complex64 {
 /// [`decaying_root`] of several numbers with one imaginary part.
 #[inline(always)]
 pub(crate) fn root<R: Real>(re: R, im: f64) -> Complex<R> {
-    let part = |sign: f64| (re * sign).map(|x| if x < 0.0 { 0.0 } else { x }).sqrt();
     if im == 0.0 {
-        return Complex { re: part(1.0), im: part(-1.0) };
+        let part = |x: R| (-x).choose(x.all(0.0), x).sqrt();
+        return Complex { re: part(re), im: part(-re) };
     }
     let size = (re * re + im * im).sqrt();
-    let large = ((size + re.map(f64::abs)) * 0.5).sqrt();
-    let small = R::new(0.5 * im) / large;
+    let large = ((size + re.abs()) * 0.5).sqrt();
+    let small = re.all(0.5 * im) / large;
     Complex { re: re.choose(large, small), im: re.choose(small, large) }
 }
 

@@ -143,9 +143,9 @@ impl FirstOrder {
         [e, u, w]: [Complex<R>; 3],
         to: &Outgoing<R>,
     ) -> [Complex<R>; 4] {
-        let scale = R::new(1.0) / to.cos.sqrt();
+        let scale = to.cos.all(1.0) / to.cos.sqrt();
         let (c, s) = (to.cos_phi * scale, to.sin_phi * scale);
-        let w = w * R::new(self.sign * self.index);
+        let w = w * to.cos.all(self.sign * self.index);
         let across = if self.turned_over { -s } else { s };
         [
             e.times(drive.e) * c,

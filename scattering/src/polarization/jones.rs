@@ -5,7 +5,7 @@ use std::ops::{Add, Mul};
 use num_complex::Complex64;
 
 use super::Mueller;
-use crate::lanes::{Complex, Lanes, Real, WIDTH};
+use crate::lanes::{Complex, Real, Vectors, WIDTH};
 
 /// A Jones matrix, output × input: `[[ss, ps], [sp, pp]]`, where `ps` turns p into s and `sp`
 /// turns s into p.
@@ -47,16 +47,6 @@ impl Jones {
         }
     }
 
-    /// The elements ss, ps, sp and pp of several matrices.
-    #[inline(always)]
-    pub(crate) fn side_by_side(several: &[Self; WIDTH]) -> [Complex<Lanes>; 4] {
-        let each = |f: fn(&Self) -> Complex64| Complex {
-            re: Lanes(several.each_ref().map(|j| f(j).re)),
-            im: Lanes(several.each_ref().map(|j| f(j).im)),
-        };
-        [each(|j| j.ss), each(|j| j.ps), each(|j| j.sp), each(|j| j.pp)]
-    }
-
     /// The Mueller matrix of this non-depolarizing element.
     pub fn mueller(&self) -> Mueller {
         Mueller(elements([self.ss, self.ps, self.sp, self.pp].map(Complex::from)))
@@ -83,10 +73,15 @@ fn elements<R: Real>([a, b, c, d]: [Complex<R>; 4]) -> [[R; 4]; 4] {
 
 /// The Mueller matrices of the Jones matrices with the elements ss, ps, sp, pp, times `weight`.
 #[inline(always)]
-pub(crate) fn muellers(jones: [Complex<Lanes>; 4], weight: Lanes, out: &mut [Mueller; WIDTH]) {
+pub(crate) fn muellers<V: Vectors>(
+    vectors: V,
+    jones: [Complex<V::Real>; 4],
+    weight: V::Real,
+    out: &mut [Mueller; WIDTH],
+) {
     for (i, row) in elements(jones).into_iter().enumerate() {
         for (j, element) in row.into_iter().enumerate() {
-            for (m, x) in out.iter_mut().zip((element * weight).0) {
+            for (m, x) in out.iter_mut().zip(vectors.store(element * weight)) {
                 m.0[i][j] = x;
             }
         }

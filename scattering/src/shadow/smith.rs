@@ -19,7 +19,7 @@ use super::{Shadow, sancer::lambda_and_erfc};
 use crate::{
     Direction, Incidence, Mueller,
     geometry::Outgoing,
-    lanes::{Batch, Real, WIDTH, with_widest},
+    lanes::{Batch, Real, Vectors, WIDTH, with_widest},
     spec::{Class, Laws, Param, ParamError, Spec},
 };
 
@@ -54,10 +54,10 @@ impl Smith {
     /// g of a ray, or of several.
     #[inline(always)]
     fn one_ray<R: Real>(&self, sin: R, cos: R) -> R {
-        let x = cos / sin.map(f64::abs) * FRAC_1_SQRT_2 / R::new(self.w);
+        let x = cos / sin.abs() * FRAC_1_SQRT_2 / self.w;
         let [lambda, erfc] = lambda_and_erfc(x);
         let shadowed = (-(erfc * 0.5) + 1.0) / (lambda + 1.0);
-        (x - UNSHADOWED).choose(R::new(1.0), shadowed)
+        (x - UNSHADOWED).choose(x.all(1.0), shadowed)
     }
 }
 
@@ -71,11 +71,11 @@ struct Shade<'a> {
 
 impl Batch for Shade<'_> {
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Vectors>(self, vectors: V) {
         for (directions, matrices) in self.directions.iter().zip(self.matrices) {
-            let Outgoing { sin, cos, .. } = Outgoing::several(directions);
-            let fractions = self.smith.one_ray(sin, cos) * self.of_source;
-            for (m, fraction) in matrices.iter_mut().zip(fractions.0) {
+            let Outgoing { sin, cos, .. } = Outgoing::several(vectors, directions);
+            let fractions = vectors.store(self.smith.one_ray(sin, cos) * self.of_source);
+            for (m, fraction) in matrices.iter_mut().zip(fractions) {
                 *m *= fraction;
             }
         }

@@ -1,17 +1,13 @@
 //! The edges of a polygon sorted into slabs of x, so that a test looks at the few that can matter.
 //!
-//! In most slabs the edges run from one side to the other in a few bands of y. Between two bands
-//! every point is inside or every point is outside, and no edge is looked at. The edges decide in
-//! the bands, and everywhere in a slab with a vertex that is the leftmost or the rightmost of its
-//! neighbours: NIST's rules count a vertex above a point by one of its two edges, which is the
-//! wrong number where the edges turn back.
+//! In a slab the edges run in a few bands of y. Between two bands every point is inside or every
+//! point is outside, and no edge is looked at. The edges decide in the bands, and below a vertex
+//! that is the leftmost or the rightmost of its neighbours: NIST's rules count a vertex above a
+//! point by one of its two edges, which is the wrong number where the edges turn back.
 
 use glam::DVec2;
 
 use super::Edge;
-
-/// At most so many slabs: enough for outlines of a few thousand edges.
-const MOST_SLABS: usize = 1024;
 
 /// Closer to an edge than this the edge itself decides; far more than rounding, far less than a
 /// band is high.
@@ -36,6 +32,8 @@ struct Slab {
     bands: [u32; 2],
     /// Whether points above all bands are inside.
     above: bool,
+    /// Up to this y the edges decide; −∞ where none of them turns back.
+    turn: f64,
 }
 
 /// Where edges run, from below to above.
@@ -48,14 +46,14 @@ struct Band {
 }
 
 impl Slabs {
-    pub(super) fn new(edges: &[Edge]) -> Self {
+    /// `count` slabs of the polygon with these edges; none if it is empty or not finite.
+    pub(super) fn new(edges: &[Edge], count: usize) -> Self {
         let xs = || edges.iter().map(|e| e.a.x);
         let (low, high) =
             (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
         if edges.iter().any(|e| !e.a.is_finite()) || edges.is_empty() {
             return Self::default();
         }
-        let count = edges.len().clamp(1, MOST_SLABS);
         let per_x = if high > low { count as f64 / (high - low) } else { 0.0 };
         let mut slabs = Self { low, high, per_x, ..Self::default() };
         let mut lists = vec![Vec::new(); count];
@@ -65,7 +63,7 @@ impl Slabs {
                 list.push(*edge);
             }
         }
-        let turns: Vec<f64> = turns(edges).collect();
+        let turns: Vec<DVec2> = turns(edges).collect();
         for (k, list) in lists.iter().enumerate() {
             slabs.push(k, list, &turns);
         }
@@ -73,24 +71,22 @@ impl Slabs {
     }
 
     /// Adds slab `k`, which holds `edges`.
-    fn push(&mut self, k: usize, edges: &[Edge], turns: &[f64]) {
+    fn push(&mut self, k: usize, edges: &[Edge], turns: &[DVec2]) {
         let first = self.edges.len();
         self.edges.extend(edges);
         let at = |k: usize| self.low + k as f64 / self.per_x;
         let (left, right) = (at(k) - MARGIN, at(k + 1) + MARGIN);
-        let mut bands: Vec<Band> = Vec::new();
-        if turns.iter().any(|x| (left..=right).contains(x)) || self.per_x == 0.0 {
-            // One band for all points.
-            bands.push(Band { from: f64::NEG_INFINITY, to: f64::INFINITY, below: false });
-        } else {
-            bands.extend(edges.iter().filter_map(|edge| edge.band(left, right)));
-            bands.sort_unstable_by(|one, other| one.from.total_cmp(&other.from));
-            bands.dedup_by(|next, band| {
-                let touches = next.from <= band.to;
-                band.to = if touches { band.to.max(next.to) } else { band.to };
-                touches
-            });
-        }
+        let here = turns.iter().filter(|turn| (left..=right).contains(&turn.x));
+        // A polygon without a width is a single slab in which the edges decide.
+        let no_width = if self.per_x == 0.0 { f64::INFINITY } else { f64::NEG_INFINITY };
+        let turn = here.map(|turn| turn.y + MARGIN).fold(no_width, f64::max);
+        let mut bands: Vec<Band> = edges.iter().filter_map(|edge| edge.band(left, right)).collect();
+        bands.sort_unstable_by(|one, other| one.from.total_cmp(&other.from));
+        bands.dedup_by(|next, band| {
+            let touches = next.from <= band.to;
+            band.to = if touches { band.to.max(next.to) } else { band.to };
+            touches
+        });
         // Between two bands any point tells about all.
         let inside = |y: f64| counted(edges, DVec2::new(0.5 * (left + right), y));
         let ends: Vec<f64> = bands.iter().map(|band| band.to).collect();
@@ -105,6 +101,7 @@ impl Slabs {
             edges: [first as u32, self.edges.len() as u32],
             bands: [first_band as u32, self.bands.len() as u32],
             above,
+            turn,
         });
     }
 
@@ -120,17 +117,45 @@ impl Slabs {
             return false;
         }
         let slab = &self.slabs[self.index(p.x, self.slabs.len())];
+        self.between_bands(slab, [p.y; 2]).unwrap_or_else(|| {
+            let [first, last] = slab.edges.map(|at| at as usize);
+            counted(&self.edges[first..last], p)
+        })
+    }
+
+    /// Whether all points closer to `p` than `reach` are inside, or all outside; nothing where
+    /// that is not known.
+    pub(super) fn alike(&self, p: DVec2, reach: f64) -> Option<bool> {
+        let (left, right) = (p.x - reach, p.x + reach);
+        let is_beside = !(self.low <= left && right <= self.high);
+        if self.slabs.is_empty() || left > self.high || right < self.low {
+            return Some(false);
+        }
+        let [first, last] = [left, right].map(|x| self.index(x, self.slabs.len()));
+        let mut states = self.slabs[first..=last]
+            .iter()
+            .map(|slab| self.between_bands(slab, [p.y - reach, p.y + reach]));
+        let state = states.next()??;
+        let are_equal = states.all(|other| other == Some(state)) && !(is_beside && state);
+        are_equal.then_some(state)
+    }
+
+    /// Whether the points of `slab` from one y to another are inside, if no edge needs to be asked.
+    #[inline]
+    fn between_bands(&self, slab: &Slab, [from, to]: [f64; 2]) -> Option<bool> {
+        if !(from > slab.turn) {
+            return None;
+        }
         let [first, last] = slab.bands.map(|at| at as usize);
         for band in &self.bands[first..last] {
-            if p.y < band.from {
-                return band.below;
+            if to < band.from {
+                return Some(band.below);
             }
-            if p.y <= band.to {
-                let [first, last] = slab.edges.map(|at| at as usize);
-                return counted(&self.edges[first..last], p);
+            if from <= band.to {
+                return None;
             }
         }
-        slab.above
+        Some(slab.above)
     }
 }
 
@@ -139,17 +164,17 @@ fn counted(edges: &[Edge], p: DVec2) -> bool {
     edges.iter().filter(|edge| edge.counts(p)).count() % 2 == 1
 }
 
-/// The x of vertices whose neighbours lie on the same side of them, or above or below.
-fn turns(edges: &[Edge]) -> impl Iterator<Item = f64> + '_ {
+/// The vertices whose neighbours lie on the same side of them, or above or below.
+fn turns(edges: &[Edge]) -> impl Iterator<Item = DVec2> + '_ {
     let next = edges.iter().cycle().skip(1);
     edges.iter().zip(next).filter_map(|(edge, next)| {
         let (before, behind) = (edge.b.x - edge.a.x, next.b.x - next.a.x);
-        (!(before * behind > 0.0)).then_some(edge.b.x)
+        (!(before * behind > 0.0)).then_some(edge.b)
     })
 }
 
 impl Edge {
-    /// Where it runs between the abscissas `left` and `right`, if it does; not for edges along y.
+    /// Where it runs between the abscissas `left` and `right`, if it does.
     fn band(&self, left: f64, right: f64) -> Option<Band> {
         let Self { a, b } = self;
         let (from, to) = (left.max(a.x.min(b.x)), right.min(a.x.max(b.x)));
@@ -157,7 +182,7 @@ impl Edge {
             return None;
         }
         let at = |x: f64| a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)).clamp(0.0, 1.0);
-        let (one, other) = (at(from), at(to));
+        let (one, other) = if a.x == b.x { (a.y, b.y) } else { (at(from), at(to)) };
         let (from, to) = (one.min(other) - MARGIN, one.max(other) + MARGIN);
         Some(Band { from, to, below: false })
     }

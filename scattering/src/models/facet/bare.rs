@@ -30,7 +30,7 @@ use super::{
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
     geometry::Outgoing,
-    lanes::{Batch, Lanes, WIDTH, with_widest},
+    lanes::{Batch, Vectors, WIDTH, with_widest},
     models::{Brdf, COMMON, Common},
     optics::film::{Films, Pair},
     polarization::muellers,
@@ -71,10 +71,10 @@ struct Slopes<'a> {
 
 impl Batch for Slopes<'_> {
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Vectors>(self, vectors: V) {
         for (directions, out) in self.directions.iter().zip(self.out) {
-            let facet = Tilted::between(self.incidence, &Outgoing::several(directions));
-            *out = facet.slopes.map(|slope| slope.0);
+            let to = Outgoing::several(vectors, directions);
+            *out = Tilted::between(self.incidence, &to).slopes.map(|slope| vectors.store(slope));
         }
     }
 }
@@ -90,10 +90,10 @@ struct Matrices<'a> {
 
 impl Batch for Matrices<'_> {
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Vectors>(self, vectors: V) {
         for ((directions, density), out) in self.directions.iter().zip(self.densities).zip(self.out)
         {
-            self.facet.with_density(self.incidence, directions, Lanes(*density), out);
+            self.facet.with_density(vectors, self.incidence, directions, density, out);
         }
     }
 }
@@ -176,23 +176,28 @@ impl Facet {
     }
 
     #[inline(always)]
-    fn with_density(
+    fn with_density<V: Vectors>(
         &self,
+        vectors: V,
         incidence: &Incidence,
         directions: &[Direction; WIDTH],
-        density: Lanes,
+        density: &[f64; WIDTH],
         out: &mut [Mueller; WIDTH],
     ) {
-        let to = Outgoing::several(directions);
+        let to = Outgoing::several(vectors, directions);
         let facet = Tilted::between(incidence, &to);
         let turn = Turn::new(incidence, &to, to.cos);
         let norm = turn.norm();
         let jones = turn.elements(self.films.bare(facet.cos(), facet.sin2));
-        let weight = density * facet.elongation() / (to.cos * (4.0 * incidence.cos) * norm);
-        muellers(jones, weight, out);
+        let weight =
+            vectors.load(density) * facet.elongation() / (to.cos * (4.0 * incidence.cos) * norm);
+        muellers(vectors, jones, weight, out);
+        let is_delicate = |norm: f64, sin2: f64| {
+            norm < f64::MIN_POSITIVE || (self.unturned && sin2 <= UNTURNED_REFLECTION)
+        };
+        let (norm, sin2) = (vectors.store(norm), vectors.store(facet.sin2));
         for (k, m) in out.iter_mut().enumerate() {
-            let unturned = self.unturned && facet.sin2.0[k] <= UNTURNED_REFLECTION;
-            if norm.0[k] < f64::MIN_POSITIVE || unturned {
+            if is_delicate(norm[k], sin2[k]) {
                 *m = self.mueller(incidence, &directions[k]);
             }
         }

@@ -18,7 +18,7 @@ use num_complex::Complex64;
 use crate::{
     Direction, Incidence, Jones, Mueller, Node, ParamError,
     geometry::Outgoing,
-    lanes::{Complex, Lanes, Real, WIDTH},
+    lanes::{Batch, Real, Vectors, WIDTH, with_widest},
     models::{Brdf, Common},
     optics::{
         film::{Fields, Films, Wave, decaying_root},
@@ -126,27 +126,51 @@ impl SmallSphere {
         self.stack.drive(incidence, &fields, self.coupling, self.inverse_product)
     }
 
-    /// The elements of [`SmallSphere::amplitude`] of several directions.
+    /// The squared tangential indices of several directions, if waves pass all films without
+    /// loss there.
     #[inline(always)]
-    fn amplitudes(&self, drive: &Drive, directions: &[Direction; WIDTH]) -> [Complex<Lanes>; 4] {
+    fn clear(&self, directions: &[Direction; WIDTH]) -> Option<[f64; WIDTH]> {
         let kappa_squared = directions.each_ref().map(|to| {
             let (_, kappa) = self.stack.kappa_out(to);
             kappa.re * kappa.re
         });
         let films = self.stack.films();
-        let clear = |&squared: &f64| films.is_clear_at(squared, self.depth);
-        if self.from_face.is_some() || !kappa_squared.iter().all(clear) {
-            return Jones::side_by_side(&directions.each_ref().map(|to| self.amplitude(drive, to)));
-        }
-        let (from, _) = self.stack.kappa_out(&directions[0]);
-        let seen = films.clear_fields(from, Lanes(kappa_squared), self.depth);
-        self.stack.elements(drive, seen, &Outgoing::several(directions))
+        let is_clear = |&squared: &f64| films.is_clear_at(squared, self.depth);
+        let are_clear = self.from_face.is_none() && kappa_squared.iter().all(is_clear);
+        are_clear.then_some(kappa_squared)
     }
 
     fn amplitude(&self, drive: &Drive, direction: &Direction) -> Jones {
         let (from, kappa) = self.stack.kappa_out(direction);
         let seen = self.fields(from, direction.sin, kappa);
         self.stack.scatter(drive, &seen, direction)
+    }
+}
+
+/// The matrices of several directions.
+struct Matrices<'a> {
+    sphere: &'a SmallSphere,
+    drive: &'a Drive,
+    directions: &'a [[Direction; WIDTH]],
+    out: &'a mut [[Mueller; WIDTH]],
+}
+
+impl Batch for Matrices<'_> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self { sphere, drive, .. } = self;
+        for (directions, out) in self.directions.iter().zip(self.out) {
+            let Some(kappa_squared) = sphere.clear(directions) else {
+                *out = directions.each_ref().map(|to| sphere.amplitude(drive, to).mueller());
+                continue;
+            };
+            let (from, _) = sphere.stack.kappa_out(&directions[0]);
+            let kappa_squared = vectors.load(&kappa_squared);
+            let seen = sphere.stack.films().clear_fields(from, kappa_squared, sphere.depth);
+            let to = Outgoing::several(vectors, directions);
+            let jones = sphere.stack.elements(drive, seen, &to);
+            muellers(vectors, jones, kappa_squared.all(1.0), out);
+        }
     }
 }
 
@@ -177,10 +201,8 @@ impl Brdf for SmallSphere {
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
         let drive = self.drive(incidence);
-        let ((several, rest), (to, left)) = (directions.as_chunks(), out.as_chunks_mut());
-        for (directions, out) in several.iter().zip(to) {
-            muellers(self.amplitudes(&drive, directions), Lanes::new(1.0), out);
-        }
+        let ((directions, rest), (out, left)) = (directions.as_chunks(), out.as_chunks_mut());
+        with_widest(Matrices { sphere: self, drive: &drive, directions, out });
         for (m, direction) in left.iter_mut().zip(rest) {
             *m = self.amplitude(&drive, direction).mueller();
         }

@@ -40,7 +40,7 @@ use super::{ROUGHNESS, Rough};
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Side,
     geometry::Outgoing,
-    lanes::{Complex, Lanes, Real},
+    lanes::{Batch, Complex, Real, Vectors, WIDTH, with_widest},
     models::{Brdf, COMMON, Common},
     optics::film::{decaying_root, root},
     polarization::muellers,
@@ -100,6 +100,28 @@ struct Beam {
     p: Complex64,
 }
 
+/// The matrices of several directions.
+struct Matrices<'a> {
+    surface: &'a Microroughness,
+    beam: &'a Beam,
+    incidence: &'a Incidence,
+    directions: &'a [[Direction; WIDTH]],
+    out: &'a mut [[Mueller; WIDTH]],
+}
+
+impl Batch for Matrices<'_> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self { surface, beam, incidence, .. } = self;
+        for (directions, out) in self.directions.iter().zip(self.out) {
+            let to = Outgoing::several(vectors, directions);
+            let jones = surface.elements(beam, incidence, &to);
+            let density = |to| surface.rough.density(incidence, to);
+            muellers(vectors, jones, vectors.load(&directions.each_ref().map(density)), out);
+        }
+    }
+}
+
 impl Microroughness {
     fn beam(&self, incidence: &Incidence) -> Beam {
         let q = decaying_root(self.epsilon - incidence.sin * incidence.sin);
@@ -122,7 +144,8 @@ impl Microroughness {
         } else {
             self.reflected(beam, incidence, to)
         };
-        let crossed = if self.rough.common.side.from_below() { R::new(-1.0) } else { R::new(1.0) };
+        let crossed =
+            if self.rough.common.side.from_below() { to.cos.all(-1.0) } else { to.cos.all(1.0) };
         [ss, ps * crossed, sp * crossed, pp]
     }
 
@@ -194,12 +217,8 @@ impl Brdf for Microroughness {
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
         let beam = self.beam(incidence);
-        let ((several, rest), (to, left)) = (directions.as_chunks(), out.as_chunks_mut());
-        for (directions, out) in several.iter().zip(to) {
-            let jones = self.elements(&beam, incidence, &Outgoing::several(directions));
-            let density = |to| self.rough.density(incidence, to);
-            muellers(jones, Lanes(directions.each_ref().map(density)), out);
-        }
+        let ((directions, rest), (out, left)) = (directions.as_chunks(), out.as_chunks_mut());
+        with_widest(Matrices { surface: self, beam: &beam, incidence, directions, out });
         for (m, direction) in left.iter_mut().zip(rest) {
             let jones = self.amplitude(&beam, incidence, direction);
             *m = jones.mueller() * self.rough.density(incidence, direction);

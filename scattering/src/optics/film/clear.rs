@@ -37,7 +37,7 @@ impl Films {
             Wave::FromSubstrate => depth,
         };
         let y = exit.admittance_pair(kappa_squared);
-        let one = Complex::real(R::new(1.0));
+        let one = Complex::real(kappa_squared.all(1.0));
         let mut v = [[one, y[0]], [one, y[1]]];
         let mut there = None;
         let last = self.layers.len().saturating_sub(1);
