@@ -5,6 +5,7 @@
 
 pub(crate) mod alone;
 mod aperture;
+mod settings;
 
 use std::{collections::BTreeSet, sync::Arc};
 
@@ -15,6 +16,7 @@ use mist_format::{
     program::Text,
 };
 use scattering::{Mode, Stokes};
+use settings::{Setting, Settings};
 
 use crate::{
     Job,
@@ -60,7 +62,7 @@ struct Given {
 
 /// What an entry sent to the model last.
 struct Sent {
-    text: String,
+    text: Arc<str>,
     /// The bits of the number, if it was one.
     bits: Option<u64>,
 }
@@ -84,6 +86,9 @@ pub struct Replay<'j> {
     /// The slots that the integrals read.
     integrals_read: Vec<u32>,
     last_sent: Vec<Option<Sent>>,
+    known_settings: Settings,
+    /// When the predefined variables were given their values.
+    predefined: Option<u64>,
     parameters: Parameters,
     /// The parameters of the step before: NIST's library remembers optical constants by them.
     previous: Option<Parameters>,
@@ -120,6 +125,8 @@ impl<'j> Replay<'j> {
             values: None,
             integrals_read: integrals_read.into_iter().collect(),
             last_sent: (0..entries).map(|_| None).collect(),
+            known_settings: Settings::default(),
+            predefined: None,
             parameters: Parameters::new(job.class),
             previous: None,
             index: 0,
@@ -214,15 +221,15 @@ impl<'j> Replay<'j> {
 
     fn set_predefined(&mut self) {
         let required = &self.job.required;
+        let slots = [required.integrationmode, required.polygonsides, required.pi, required.deg];
+        if self.predefined.is_some_and(|at| self.scope.is_same_since(at, &slots)) {
+            return;
+        }
         let pi = 4.0 * 1f64.atan();
-        for (slot, value) in [
-            (required.integrationmode, 2.0),
-            (required.polygonsides, 360.0),
-            (required.pi, pi),
-            (required.deg, pi / 180.0),
-        ] {
+        for (slot, value) in slots.into_iter().zip([2.0, 360.0, pi, pi / 180.0]) {
             self.scope.set(slot, value.into());
         }
+        self.predefined = Some(self.scope.now());
     }
 
     fn evaluate_entry(&mut self, at: usize, listing: &mut String) -> Result<(), Fault> {
@@ -237,10 +244,10 @@ impl<'j> Replay<'j> {
                 }
                 None => self.text(entry).as_str(),
             };
-            if self.last_sent[at].as_ref().is_some_and(|last| last.text == *text) {
+            if self.last_sent[at].as_ref().is_some_and(|last| *last.text == *text) {
                 return Ok(());
             }
-            let text = text.to_owned();
+            let text = text.into();
             return self.send(at, Sent { text, bits: None }, listing);
         };
         let is_sent = entry.parameter.is_none() || self.last_sent[at].is_some();
@@ -320,35 +327,56 @@ impl<'j> Replay<'j> {
         if bits.is_some() && self.last_sent[at].as_ref().is_some_and(|last| last.bits == bits) {
             return Ok(());
         }
-        let text = value.to_text();
+        let setting = bits.map(|bits| Setting {
+            entry: at,
+            bits,
+            before: self.parameters.fingerprint(),
+            previous: self.previous.as_ref().map(Parameters::fingerprint),
+        });
+        let known = setting.and_then(|setting| self.known_settings.get(&setting).cloned());
+        let text: Arc<str> =
+            known.as_ref().map_or_else(|| value.to_text().into(), |known| known.text.clone());
         if self.last_sent[at].as_ref().is_some_and(|last| last.text == text) {
             return Ok(());
         }
-        self.send(at, Sent { text, bits }, listing)
+        if let Some(known) = known {
+            self.parameters = known.after;
+            self.sent(at, Sent { text, bits }, listing);
+            return Ok(());
+        }
+        self.send(at, Sent { text: text.clone(), bits }, listing)?;
+        if let Some(setting) = setting {
+            let after = self.parameters.clone();
+            self.known_settings.insert(setting, settings::Known { text, after });
+        }
+        Ok(())
     }
 
     /// Sends a parameter to the model.
     fn send(&mut self, at: usize, sent: Sent, listing: &mut String) -> Result<(), Fault> {
-        let text = &sent.text;
         let entry = &self.job.entries[at];
         let name = entry.parameter.as_deref().expect("only parameters are sent");
-        let line = ["Setting parameter ", name, " to ", text, "\n"];
+        let (mode, previous) = (self.job.options.mode, self.previous.as_ref());
+        let set = self.parameters.set(name, &sent.text, &self.job.library, mode, previous);
+        set.map_err(|error| {
+            let variable = &self.job.program.variables[entry.variable];
+            let place = if error.is_about_the_name() { &variable.name } else { &variable.value };
+            Box::new(error.diagnostic(place.span()))
+        })?;
+        self.sent(at, sent, listing);
+        Ok(())
+    }
+
+    /// Notes that a parameter is set.
+    fn sent(&mut self, at: usize, sent: Sent, listing: &mut String) {
+        let name = self.job.entries[at].parameter.as_deref().expect("only parameters are sent");
+        let line = ["Setting parameter ", name, " to ", &sent.text, "\n"];
         listing.reserve(line.iter().map(|part| part.len()).sum());
         line.iter().for_each(|part| listing.push_str(part));
-        let mode = self.job.options.mode;
-        self.parameters.set(name, text, &self.job.library, mode, self.previous.as_ref()).map_err(
-            |error| {
-                let variable = &self.job.program.variables[entry.variable];
-                let place =
-                    if error.is_about_the_name() { &variable.name } else { &variable.value };
-                Box::new(error.diagnostic(place.span()))
-            },
-        )?;
-        if !Quirk::NoResend.applies_in(mode) {
+        if !Quirk::NoResend.applies_in(self.job.options.mode) {
             self.forget_below(at, name);
         }
         self.last_sent[at] = Some(sent);
-        Ok(())
     }
 
     /// Entries that set a parameter below `name` are sent again: it is a new object now.

@@ -12,23 +12,26 @@ use std::{
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use scattering::{Direction, Mueller};
+use scattering::Direction;
 
 use crate::region::{Apertures, Frame, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
 
 pub mod adaptive;
+mod chunk;
 mod key;
 mod pattern;
+mod points;
 mod projection;
-mod run;
 pub(crate) mod turn;
 
+pub(crate) use chunk::{Chunk, Weight};
 pub use key::LayoutKey;
 
-use pattern::Pattern;
+use chunk::seen;
+use pattern::{Pattern, Run};
+use points::{Lifted, Points};
 use projection::{DELICATE, Projection};
-use run::Run;
 use turn::Turn;
 
 /// What a program says about the sampling of its integrals.
@@ -59,39 +62,6 @@ const STORED: u64 = 1 << 18;
 pub struct Layout {
     plan: Plan,
     stored: OnceLock<Vec<Chunk>>,
-}
-
-/// A part of a layout, in the order of evaluation.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Chunk {
-    pub(crate) directions: Vec<Direction>,
-    pub(crate) weights: Vec<Weight>,
-}
-
-/// What belongs to one direction.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Weight {
-    /// Weight of the sampling times cos θ.
-    pub(crate) weight: f64,
-    /// cos 2β, β the turn of the sensitivity towards the centre of polarization.
-    pub(crate) cos2b: f64,
-    /// sin 2β, to be negated for light that leaves downwards.
-    pub(crate) sin2b: f64,
-}
-
-impl Weight {
-    /// Adds w R(β)ᵀ M: S(β) = R S, so rows 1 and 2 of M are turned the other way.
-    pub(crate) fn add_turned(&self, m: &Mueller, flip: f64, sum: &mut Mueller) {
-        let w = self.weight;
-        let (c, s) = (w * self.cos2b, w * flip * self.sin2b);
-        let sum = &mut sum.0;
-        for k in 0..4 {
-            sum[0][k] += w * m.0[0][k];
-            sum[1][k] += c * m.0[1][k] - s * m.0[2][k];
-            sum[2][k] += s * m.0[1][k] + c * m.0[2][k];
-            sum[3][k] += w * m.0[3][k];
-        }
-    }
 }
 
 /// How a weighted sum becomes an integral.
@@ -272,39 +242,27 @@ impl Plan {
     }
 
     fn chunk(&self, k: u64) -> Chunk {
-        let mut chunk = Chunk::default();
         if let Inside::One(direction) = self.inside {
-            if direction.is_above() {
-                chunk.push(direction, Weight { weight: direction.cos, cos2b: 1.0, sin2b: 0.0 });
-            }
-            return chunk;
+            return if direction.is_above() { Chunk::one(direction) } else { Chunk::default() };
         }
         let range = k * CHUNK..self.points().min((k + 1) * CHUNK);
-        chunk.reserve(range.end - range.start);
-        let mut run = Run::default();
-        self.pattern.for_each(range, |x, y| {
-            let p = DVec2::new(x, y);
-            if !run.takes(p) {
-                self.add(&run, &mut chunk);
-                run.clear();
-            }
-            run.push(p);
-        });
-        self.add(&run, &mut chunk);
+        let mut points = Points::with_capacity((range.end - range.start) as usize);
+        self.pattern.for_each(range, |run| self.push(run, &mut points));
+        points.lift(self.projection, &self.frame);
+        points.filter_map(|point| self.kept(point));
+        let mut chunk = Chunk::of(&points, &self.turn);
+        if self.apertures == Apertures::Exact {
+            chunk.keep_above();
+        }
         chunk
     }
 
-    /// Adds the points of `run` that belong to the region.
-    fn add(&self, run: &Run, chunk: &mut Chunk) {
+    /// Adds the points of `run`, unless none of them belongs to the region.
+    #[inline]
+    fn push(&self, run: &Run, points: &mut Points) {
         let known = run.extent().and_then(|(middle, reach)| self.alike(middle, reach));
-        if known == Some(false) {
-            return;
-        }
-        for p in run.points() {
-            if let Some((direction, v, weight)) = self.direction(*p, known.is_some()) {
-                let (cos2b, sin2b) = self.turn.at(v);
-                chunk.push(direction, Weight { weight, cos2b, sin2b });
-            }
+        if known != Some(false) {
+            points.push(run.x, run.ys(), known.is_some());
         }
     }
 
@@ -313,58 +271,29 @@ impl Plan {
     fn alike(&self, middle: DVec2, reach: f64) -> Option<bool> {
         let Inside::Polygon(polygon) = &self.inside else { return None };
         let reach = reach * self.projection.longest(self.radius) + DELICATE;
-        let v = self.frame.turn(self.projection.lift(middle.x, middle.y).0);
-        if v.z < -reach { Some(false) } else { polygon.alike(v.truncate(), reach) }
+        let [x, y, z] = self.frame.turn(self.projection.lift(middle.x, middle.y).0);
+        if z < -reach { Some(false) } else { polygon.alike(DVec2::new(x, y), reach) }
     }
 
-    /// The direction of a point of the plane, its unit vector and its weight times cos θ, if it
-    /// belongs to the region; `is_inside` if nothing but the horizon is to be asked.
-    fn direction(&self, p: DVec2, is_inside: bool) -> Option<(Direction, DVec3, f64)> {
-        let (u, mut weight) = self.projection.lift(p.x, p.y);
-        let mut v = self.frame.turn(u);
-        if self.projection.is_delicate(u.z, v.z) {
-            let (u, same_weight) = self.projection.lift_by_angles(p.x, p.y);
-            (v, weight) = (self.frame.turn(u), same_weight);
+    /// `point` with its weight times cos θ, if it belongs to the region.
+    #[inline]
+    fn kept(&self, mut point: Lifted) -> Option<Lifted> {
+        if self.projection.is_delicate(point.plane, point.v.z) {
+            let (u, weight) = self.projection.lift_by_angles(point.plane);
+            (point.v, point.weight) = (self.frame.turn(u.to_array()).into(), weight);
         }
-        if v.z <= 0.0 {
-            return None;
-        }
-        let is_inside = is_inside
-            || match &self.inside {
-                Inside::Cone => true,
-                Inside::Polygon(polygon) => polygon.contains(projected(v)),
-                Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
-                Inside::One(_) => false,
-            };
-        if !is_inside {
-            return None;
-        }
-        let direction = seen(v);
-        let has_cosine = self.apertures == Apertures::Nist || direction.is_above();
-        has_cosine.then_some((direction, v, weight * v.z))
+        let v = point.v;
+        let belongs = v.z > 0.0
+            && (point.is_inside
+                || match &self.inside {
+                    Inside::Cone => true,
+                    Inside::Polygon(polygon) => polygon.contains(projected(v)),
+                    Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
+                    Inside::One(_) => false,
+                });
+        point.weight *= v.z;
+        belongs.then_some(point)
     }
-}
-
-impl Chunk {
-    fn reserve(&mut self, count: u64) {
-        self.directions.reserve(count as usize);
-        self.weights.reserve(count as usize);
-    }
-
-    fn push(&mut self, direction: Direction, weight: Weight) {
-        self.directions.push(direction);
-        self.weights.push(weight);
-    }
-}
-
-/// The direction of the unit vector `v` above the horizon.
-fn seen(v: DVec3) -> Direction {
-    let sin = ((1.0 - v.z) * (1.0 + v.z)).max(0.0).sqrt();
-    let across = (v.x * v.x + v.y * v.y).sqrt();
-    // The normal has the azimuth that the signs of its zeros give it.
-    let azimuth =
-        if across > 0.0 { (v.y / across, v.x / across) } else { v.y.atan2(v.x).sin_cos() };
-    Direction::from_sin_cos((sin, v.z), azimuth)
 }
 
 /// x and y of a direction with the unit vector `v`.

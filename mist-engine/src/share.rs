@@ -9,4 +9,5 @@ mod kept;
 mod models;
 mod work;
 
+pub(crate) use kept::Map;
 pub(crate) use work::Shared;

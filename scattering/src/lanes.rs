@@ -1,9 +1,8 @@
 //! Several numbers at once: closed forms for a batch of directions.
 //!
-//! A formula is written once over [`Real`] and works on one number or on several: on [`Lanes`],
-//! which are arrays, or in a [`Batch`] on the registers of this processor. Each lane goes through
-//! the operations of one number in their order, so a batch has the bits of its directions one by
-//! one, on every machine.
+//! A formula is written once over [`Real`] and works on one number or, in a [`Batch`], on several.
+//! Each lane goes through the operations of one number in their order, so a batch has the bits of
+//! its directions one by one, on every machine.
 
 mod wide;
 
@@ -13,13 +12,13 @@ use std::{
 };
 
 use num_complex::Complex64;
-pub(crate) use wide::{Batch, Vectors, with_widest};
+pub use wide::{Batch, Vectors, with_widest};
 
-/// Numbers in [`Lanes`].
-pub(crate) const WIDTH: usize = 4;
+/// How many numbers go side by side.
+pub const WIDTH: usize = 4;
 
 /// One number, or several that go the same way.
-pub(crate) trait Real:
+pub trait Real:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>

@@ -22,7 +22,7 @@ pub mod defect;
 pub mod distribution;
 pub mod geometry;
 pub mod grating;
-mod lanes;
+pub mod lanes;
 pub mod models;
 pub mod notice;
 pub mod optics;

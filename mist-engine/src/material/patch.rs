@@ -61,7 +61,7 @@ impl Probes {
         let rad = f64::to_radians;
         let region = match patch {
             Patch::Point => {
-                self.push(Direction::new(center.0, center.1), 1.0, (1.0, 0.0));
+                self.push(Direction::new(center.0, center.1), 1.0, [1.0, 0.0]);
                 self.finish(0.0);
                 return Ok(());
             }
@@ -111,7 +111,8 @@ impl Probes {
         for &(theta, w) in &thetas {
             for &(phi, wp) in &phis {
                 let weight = w * wp * theta.sin() * theta.cos();
-                self.push(Direction::new(theta, phi), weight, turn.at(unit((theta, phi))));
+                let turned = turn.at(unit((theta, phi)).to_array());
+                self.push(Direction::new(theta, phi), weight, turned);
             }
         }
         self.normalize(start);
@@ -125,14 +126,14 @@ impl Probes {
         for (theta, w) in gauss::legendre(n, theta.0, theta.1) {
             for k in 0..RING {
                 let phi = 2.0 * PI * k as f64 / RING as f64 - PI;
-                self.push(Direction::new(theta, phi), w * theta.sin() * theta.cos(), (1.0, 0.0));
+                self.push(Direction::new(theta, phi), w * theta.sin() * theta.cos(), [1.0, 0.0]);
             }
         }
         self.normalize(start);
         self.finish(2.0 * PI * band(theta));
     }
 
-    fn push(&mut self, direction: Direction, weight: f64, (cos2b, sin2b): (f64, f64)) {
+    fn push(&mut self, direction: Direction, weight: f64, [cos2b, sin2b]: [f64; 2]) {
         self.directions.push(direction);
         self.weights.push(Weight { weight, cos2b, sin2b });
     }

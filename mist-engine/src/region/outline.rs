@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
+use scattering::lanes::Real;
 
 use super::{Angles, Polygon, Region, RegionError, unit};
 
@@ -79,7 +80,8 @@ fn steps(sides: i32) -> impl Iterator<Item = f64> {
 
 fn circle(center: Angles, alpha: f64, sides: i32) -> Outline {
     let frame = Frame::new(center);
-    let rim = steps(sides).map(|t| raised(frame.turn(unit((alpha, t))))).collect();
+    let rim =
+        steps(sides).map(|t| raised(frame.turn(unit((alpha, t)).to_array()).into())).collect();
     let mut outline = of(rim);
     if center.0 + alpha.abs() <= FRAC_PI_2 {
         outline.projected_solid_angle = PI * alpha.sin().powi(2) * center.0.cos();
@@ -112,10 +114,11 @@ impl Frame {
         Self { sin, cos, sin_phi, cos_phi }
     }
 
-    /// The turned vector.
-    pub(crate) fn turn(&self, v: DVec3) -> DVec3 {
-        let (x, z) = (self.sin * v.z + self.cos * v.x, self.cos * v.z - self.sin * v.x);
-        DVec3::new(self.cos_phi * x - self.sin_phi * v.y, self.sin_phi * x + self.cos_phi * v.y, z)
+    /// The turned vector, or several.
+    #[inline(always)]
+    pub(crate) fn turn<R: Real>(&self, [x, y, z]: [R; 3]) -> [R; 3] {
+        let (x, z) = (z * self.sin + x * self.cos, z * self.cos - x * self.sin);
+        [x * self.cos_phi - y * self.sin_phi, x * self.sin_phi + y * self.cos_phi, z]
     }
 }
 

@@ -4,6 +4,8 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
+use glam::DVec2;
+
 use super::{Sampling, truncated};
 
 /// Where the points of a disk lie.
@@ -49,31 +51,80 @@ impl Pattern {
     }
 
     /// Visits the points of the disk with numbers in `range`, in order.
-    pub(super) fn for_each(&self, range: Range<u64>, mut visit: impl FnMut(f64, f64)) {
+    pub(super) fn for_each(&self, range: Range<u64>, mut visit: impl FnMut(&Run)) {
         match *self {
-            Self::One => visit(0.0, 0.0),
+            Self::One => visit(&Run::of(0.0, 0.0)),
             Self::Grid { step, most, radius } => {
-                let side = 2 * most + 1;
-                let first = range.start.cast_signed();
-                let (mut i, mut j) = (first / side - most, first % side - most);
-                for _ in range {
-                    let (x, y) = (i as f64 * step, j as f64 * step);
-                    if x * x + y * y <= radius * radius {
-                        visit(x, y);
+                let (side, end) = (2 * most + 1, range.end.cast_signed());
+                let mut next = range.start.cast_signed();
+                while next < end {
+                    let (i, first) = (next / side - most, next % side - most);
+                    let last = most.min(first + (end - next) - 1);
+                    next += last - first + 1;
+                    let x = i as f64 * step;
+                    let mut run = Run::at(x);
+                    for y in (first..=last).map(|j| j as f64 * step) {
+                        if x * x + y * y <= radius * radius {
+                            run.push(y);
+                            if run.count == LONGEST {
+                                visit(&run);
+                                run.count = 0;
+                            }
+                        }
                     }
-                    j += 1;
-                    if j > most {
-                        (i, j) = (i + 1, -most);
+                    if run.count > 0 {
+                        visit(&run);
                     }
                 }
             }
             Self::Random { seed, radius, .. } => {
                 for number in range {
                     let (x, y) = in_disk(seed, number, radius);
-                    visit(x, y);
+                    visit(&Run::of(x, y));
                 }
             }
         }
+    }
+}
+
+/// Neighbours of one column of a grid, about which much can be said at once; or a random point.
+pub(super) struct Run {
+    pub(super) x: f64,
+    ys: [f64; LONGEST],
+    count: usize,
+}
+
+/// Points of a run, at most.
+const LONGEST: usize = 8;
+
+impl Run {
+    /// No point yet of the column at x.
+    fn at(x: f64) -> Self {
+        Self { x, ys: [0.0; LONGEST], count: 0 }
+    }
+
+    /// One point.
+    fn of(x: f64, y: f64) -> Self {
+        let mut run = Self::at(x);
+        run.push(y);
+        run
+    }
+
+    fn push(&mut self, y: f64) {
+        self.ys[self.count] = y;
+        self.count += 1;
+    }
+
+    /// The y of the points.
+    pub(super) fn ys(&self) -> &[f64] {
+        &self.ys[..self.count]
+    }
+
+    /// The middle of the points and the distance to the farthest of them; nothing for so few that
+    /// it is not worth a look.
+    pub(super) fn extent(&self) -> Option<(DVec2, f64)> {
+        let [first, _, .., last] = self.ys() else { return None };
+        Some((DVec2::new(self.x, 0.5 * (first + last)), 0.5 * (last - first)))
     }
 }
 
@@ -119,7 +170,9 @@ mod tests {
     fn all(pattern: Pattern, chunk: u64) -> Vec<(f64, f64)> {
         let (mut points, n) = (Vec::new(), pattern.points());
         for start in (0..n).step_by(chunk as usize) {
-            pattern.for_each(start..n.min(start + chunk), |x, y| points.push((x, y)));
+            pattern.for_each(start..n.min(start + chunk), |run| {
+                points.extend(run.ys().iter().map(|y| (run.x, *y)));
+            });
         }
         points
     }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::SQRT_2;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use scattering::lanes::Real;
 
 /// How a point at the distance ρ from the origin becomes a polar angle t.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,30 +55,33 @@ impl Projection {
         }
     }
 
-    /// The unit vector of a point, and the weight that makes up for the projection.
-    pub(super) fn lift(self, x: f64, y: f64) -> (DVec3, f64) {
+    /// The unit vector of a point, and the weight that makes up for the projection; or those of
+    /// several points.
+    #[inline(always)]
+    pub(super) fn lift<R: Real>(self, x: R, y: R) -> ([R; 3], R) {
         let z2 = x * x + y * y;
         match self {
             Self::Equidistant => {
                 let t = z2.sqrt();
                 let (sin, cos) = t.sin_cos();
-                let weight = if t == 0.0 { 1.0 } else { sin / t };
-                (DVec3::new(x * weight, y * weight, cos), weight)
+                let weight = (-t).choose(t.all(1.0), sin / t);
+                ([x * weight, y * weight, cos], weight)
             }
             Self::EqualArea => {
-                let stretch = (2.0 - z2).max(0.0).sqrt();
-                (DVec3::new(x * stretch, y * stretch, 1.0 - z2), 1.0)
+                let square = -z2 + 2.0;
+                let stretch = square.choose(square, z2.all(0.0)).sqrt();
+                ([x * stretch, y * stretch, -z2 + 1.0], z2.all(1.0))
             }
             Self::Orthographic => {
-                let z = (1.0 - z2).sqrt();
-                (DVec3::new(x, y, z), 1.0 / z)
+                let z = (-z2 + 1.0).sqrt();
+                ([x, y, z], z.all(1.0) / z)
             }
         }
     }
 
     /// [`Projection::lift`] by way of the polar angles.
-    pub(super) fn lift_by_angles(self, x: f64, y: f64) -> (DVec3, f64) {
-        let z2 = x * x + y * y;
+    pub(super) fn lift_by_angles(self, p: DVec2) -> (DVec3, f64) {
+        let z2 = p.x * p.x + p.y * p.y;
         let t = match self {
             Self::Equidistant => z2.sqrt(),
             Self::EqualArea => (1.0 - z2).acos(),
@@ -89,12 +93,13 @@ impl Projection {
             Self::EqualArea => 1.0,
             Self::Orthographic => 1.0 / t.cos(),
         };
-        (crate::region::unit((t, y.atan2(x))), weight)
+        (crate::region::unit((t, p.y.atan2(p.x))), weight)
     }
 
-    /// Whether rounding decides about a point with these cosines to the axis and to the normal.
-    pub(super) fn is_delicate(self, to_axis: f64, to_normal: f64) -> bool {
-        to_normal.abs() < DELICATE || (self == Self::Orthographic && to_axis < DELICATE.sqrt())
+    /// Whether rounding decides about the point `p` with this cosine to the normal.
+    pub(super) fn is_delicate(self, p: DVec2, to_normal: f64) -> bool {
+        let to_rim = || 1.0 - p.length_squared();
+        to_normal.abs() < DELICATE || (self == Self::Orthographic && !(to_rim() >= DELICATE))
     }
 }
 
@@ -108,7 +113,8 @@ mod tests {
             let projection = Projection::of_mode(mode).unwrap();
             for (x, y) in [(0.0, 0.0), (0.1, -0.2), (-0.7, 0.3), (0.5, 0.8), (0.0, -0.9)] {
                 let (u, w) = projection.lift(x, y);
-                let (v, by_angles) = projection.lift_by_angles(x, y);
+                let u = DVec3::from_array(u);
+                let (v, by_angles) = projection.lift_by_angles(DVec2::new(x, y));
                 assert!((u - v).length() < 1e-15 && (w / by_angles - 1.0).abs() < 1e-14);
                 assert!((u.length() - 1.0).abs() < 1e-15);
             }
@@ -120,7 +126,7 @@ mod tests {
         for mode in [1, 2, 3] {
             let projection = Projection::of_mode(mode).unwrap();
             let (u, _) = projection.lift(projection.radius(0.8), 0.0);
-            assert!((u.z - 0.8_f64.cos()).abs() < 1e-15);
+            assert!((u[2] - 0.8_f64.cos()).abs() < 1e-15);
         }
     }
 

@@ -42,16 +42,37 @@ pub(crate) struct ForState {
     /// What was written for the first values, with their bits: a loop that is started again
     /// mostly has the same ones.
     contents: Vec<(u64, Content)>,
+    bounds: Bounds,
+}
+
+/// What the expressions of a, b and s gave last, and when; they are evaluated again when a
+/// variable in them has changed.
+#[derive(Default)]
+struct Bounds {
+    from: Option<(u64, f64)>,
+    to: Option<(u64, f64)>,
+    by: Option<(u64, f64)>,
 }
 
 /// Contents that a loop keeps.
 const KEPT: usize = 1 << 12;
 
-fn bound(text: &Text, expr: &Expr, context: &mut Context<'_>) -> Result<f64, Fault> {
-    context.scope.number(expr, context.stack).map_err(|error| {
+fn bound(
+    known: &mut Option<(u64, f64)>,
+    (text, expr): (&Text, &Expr),
+    context: &mut Context<'_>,
+) -> Result<f64, Fault> {
+    if let Some((at, value)) = known
+        && context.scope.is_same_since(*at, expr.slots())
+    {
+        return Ok(*value);
+    }
+    let value = context.scope.number(expr, context.stack).map_err(|error| {
         let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
         placed(text, error.diagnostic(known))
-    })
+    })?;
+    *known = Some((context.scope.now(), value));
+    Ok(value)
 }
 
 impl ForState {
@@ -60,7 +81,13 @@ impl ForState {
         context: &mut Context<'_>,
         written: &mut Vec<Written>,
     ) -> Result<Self, Fault> {
-        let mut state = Self { value: f64::NAN, fraction: 0.0, at: 0, contents: Vec::new() };
+        let mut state = Self {
+            value: f64::NAN,
+            fraction: 0.0,
+            at: 0,
+            contents: Vec::new(),
+            bounds: Bounds::default(),
+        };
         state.restart(plan, context, written)?;
         Ok(state)
     }
@@ -72,7 +99,7 @@ impl ForState {
         context: &mut Context<'_>,
         written: &mut Vec<Written>,
     ) -> Result<(), Fault> {
-        self.value = bound(&plan.statement.from, &plan.from, context)?;
+        self.value = bound(&mut self.bounds.from, (&plan.statement.from, &plan.from), context)?;
         (self.fraction, self.at) = (0.0, 0);
         self.write(plan, written);
         Ok(())
@@ -86,10 +113,10 @@ impl ForState {
         written: &mut Vec<Written>,
     ) -> Result<bool, Fault> {
         let before = self.value;
-        let by = bound(&plan.statement.by, &plan.by, context)?;
+        let by = bound(&mut self.bounds.by, (&plan.statement.by, &plan.by), context)?;
         self.value += by;
-        let from = bound(&plan.statement.from, &plan.from, context)?;
-        let to = bound(&plan.statement.to, &plan.to, context)?;
+        let from = bound(&mut self.bounds.from, (&plan.statement.from, &plan.from), context)?;
+        let to = bound(&mut self.bounds.to, (&plan.statement.to, &plan.to), context)?;
         self.fraction = (self.value - from) / (to - from);
         let inside = if Quirk::LostNegativeEnd.applies_in(context.mode) {
             // The factors are NIST's; a negative end moves the wrong way.

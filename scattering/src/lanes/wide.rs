@@ -16,12 +16,13 @@ use super::{Lanes, Real, WIDTH};
 /// Work on a batch of directions.
 ///
 /// `run` and what it calls must be inlined: only then is it compiled for the processor.
-pub(crate) trait Batch {
+pub trait Batch {
+    /// Does the work with `vectors`.
     fn run<V: Vectors>(self, vectors: V);
 }
 
 /// Runs `batch` with the vectors of this processor.
-pub(crate) fn with_widest(batch: impl Batch) {
+pub fn with_widest(batch: impl Batch) {
     pulp::Arch::new().dispatch(Dispatched(batch));
 }
 
@@ -41,11 +42,14 @@ impl<B: Batch> WithSimd for Dispatched<B> {
 }
 
 /// A kind of vectors of [`WIDTH`] numbers.
-pub(crate) trait Vectors: Copy {
+pub trait Vectors: Copy {
+    /// A vector.
     type Real: Real;
 
+    /// The vector of the numbers `x`.
     fn load(self, x: &[f64; WIDTH]) -> Self::Real;
 
+    /// The numbers of the vector `x`.
     fn store(self, x: Self::Real) -> [f64; WIDTH];
 }
 

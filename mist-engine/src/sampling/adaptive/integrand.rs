@@ -39,7 +39,7 @@ impl<'a> Integrand<'a> {
         }
         self.model.evaluate(self.incidence, &directions[..at.len()], self.basis, out);
         for (m, v) in out.iter_mut().zip(at) {
-            let (c, s) = self.turn.at(*v);
+            let [c, s] = self.turn.at(v.to_array());
             let s = self.flip * s;
             let [first, second] = [m.0[1], m.0[2]];
             for k in 0..4 {
