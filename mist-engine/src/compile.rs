@@ -198,7 +198,7 @@ impl Compiler<'_> {
             }
             match scope.value(expr, &mut stack) {
                 Ok(value) => {
-                    scope.set(slot, value.clone());
+                    scope.set(slot, &value);
                     initial.push((slot, value));
                 }
                 Err(error) => {

@@ -4,7 +4,7 @@ use std::{io, ops::Range, sync::Arc};
 
 use mist_format::{
     expr::{Expr, Stack, Value},
-    number::{push_general, push_list},
+    number::push_list,
     program::Text,
 };
 
@@ -12,12 +12,9 @@ use crate::{
     Job,
     fault::{Fault, placed},
     scope::Scope,
-    step::{Cell, Evaluated, Step},
+    step::{COLUMN_DIGITS, Cell, Evaluated, Step},
     uncertainty::{ErrorColumn, ErrorColumns},
 };
-
-/// Digits of loop columns; the program's `format` does not concern them.
-const LOOP_DIGITS: usize = 6;
 
 /// One of the three texts that a run writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,8 +147,6 @@ pub(crate) struct Outputs<'j> {
     /// Whether an integral or an output has the name of a variable, and hides it until the end
     /// of the line.
     hides: bool,
-    /// For each column of the loops the number that it showed last, by its bits, and the text.
-    shown: Vec<(u64, String)>,
 }
 
 impl<'j> Outputs<'j> {
@@ -163,7 +158,7 @@ impl<'j> Outputs<'j> {
         let mut results = integrals.chain(errors).chain(outputs);
         let predefined = [job.required.pi, job.required.deg];
         let hides = results.any(|slot| job.reads.contains(&slot) || predefined.contains(&slot));
-        Self { job, scope, stack: Stack::default(), values: None, hides, shown: Vec::new() }
+        Self { job, scope, stack: Stack::default(), values: None, hides }
     }
 
     /// Puts the line of `step`, whose integrals came out as `integrals`, into `line`.
@@ -176,25 +171,25 @@ impl<'j> Outputs<'j> {
         let job = self.job;
         self.take_values(step);
         for (plan, evaluated) in job.integrals.iter().zip(integrals) {
-            self.scope.set(plan.slot, evaluated.value.into());
+            self.scope.set_number(plan.slot, evaluated.value);
         }
         let error = |column: &ErrorColumn| integrals[column.integral].error;
         for column in job.errors.iter().flat_map(ErrorColumns::all) {
-            self.scope.set(column.slot, error(column).into());
+            self.scope.set_number(column.slot, error(column));
         }
         let Line { text, cells, outputs } = line;
         text.clear();
         cells.clear();
         outputs.clear();
-        for (at, cell) in step.columns.iter().enumerate() {
+        for cell in &step.columns {
             let start = text.len();
-            self.push_cell(text, at, cell)?;
+            self.push_cell(text, cell)?;
             cells.push(start..text.len());
             text.push('\t');
         }
         for (at, output) in job.outputs.iter().enumerate() {
             let value = self.number_at(&output.expr, &output.text)?;
-            self.scope.set(output.slot, value.into());
+            self.scope.set_number(output.slot, value);
             job.format.push(text, value);
             outputs.push(value);
             for column in job.errors.iter().flat_map(|errors| errors.after(at)) {
@@ -216,43 +211,28 @@ impl<'j> Outputs<'j> {
             return;
         }
         let pi = 4.0 * 1f64.atan();
-        self.scope.set(self.job.required.pi, pi.into());
-        self.scope.set(self.job.required.deg, (pi / 180.0).into());
+        self.scope.set_number(self.job.required.pi, pi);
+        self.scope.set_number(self.job.required.deg, pi / 180.0);
         for (slot, value) in self.job.reads.iter().zip(&*step.values) {
             if value.is_some() {
-                self.scope.put(*slot, value.clone());
+                self.scope.put(*slot, value.as_ref());
             }
         }
         self.values = Some(step.values.clone());
     }
 
-    fn push_cell(&mut self, text: &mut String, at: usize, cell: &Cell) -> Result<(), Fault> {
+    fn push_cell(&mut self, text: &mut String, cell: &Cell) -> Result<(), Fault> {
         match cell {
             Cell::Text(cell) => text.push_str(cell),
-            Cell::Number(x) => self.push_number(text, at, *x),
             Cell::Expression(expr) => {
                 let value: Value = self
                     .scope
                     .value(expr, &mut self.stack)
                     .map_err(|error| Box::new(error.diagnostic(std::iter::empty())))?;
-                push_list(text, value.as_slice(), LOOP_DIGITS);
+                push_list(text, value.as_slice(), COLUMN_DIGITS);
             }
         }
         Ok(())
-    }
-
-    /// Appends the number of column `at`; those of outer loops stay for many lines.
-    fn push_number(&mut self, text: &mut String, at: usize, x: f64) {
-        if self.shown.len() <= at {
-            self.shown.resize(at + 1, (f64::NAN.to_bits(), String::new()));
-        }
-        let (bits, shown) = &mut self.shown[at];
-        if *bits != x.to_bits() || shown.is_empty() {
-            *bits = x.to_bits();
-            shown.clear();
-            push_general(shown, x, LOOP_DIGITS);
-        }
-        text.push_str(shown);
     }
 
     /// The number that `expr`, written at `place`, gives now.
@@ -269,7 +249,7 @@ impl<'j> Outputs<'j> {
         let errors = self.job.errors.iter().flat_map(ErrorColumns::slots);
         let outputs = self.job.outputs.iter().map(|output| output.slot);
         for slot in integrals.chain(errors).chain(outputs) {
-            scope.put(slot, self.scope.get(slot).cloned());
+            scope.put(slot, self.scope.get(slot));
         }
     }
 }

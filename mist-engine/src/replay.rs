@@ -5,11 +5,13 @@
 
 pub(crate) mod alone;
 mod aperture;
+mod due;
 mod settings;
 
 use std::{collections::BTreeSet, sync::Arc};
 
 use aperture::{Aperture, stokes};
+use due::Due;
 use mist_format::{
     Diagnostic, Program,
     expr::{EvalError, Expr, Stack, Value},
@@ -53,9 +55,10 @@ struct Known<T> {
     value: T,
 }
 
-/// What an entry gave last.
+/// What an entry gave last, and when.
 struct Given {
-    known: Known<Value>,
+    at: u64,
+    value: Value,
     /// When it was put into the slot of the entry.
     put: u64,
 }
@@ -74,6 +77,7 @@ pub struct Replay<'j> {
     stack: Stack,
     sweep: Option<Sweep<'j>>,
     overwritten: Vec<Option<Overwritten>>,
+    due: Due,
     /// What each entry gave last, unless a loop has written it since.
     entries: Vec<Option<Given>>,
     incident: Option<Known<Stokes>>,
@@ -101,7 +105,7 @@ impl<'j> Replay<'j> {
     pub fn new(job: &'j Job) -> Self {
         let mut scope = Scope::new(job.names.len(), job.library.clone());
         for (slot, value) in &job.initial {
-            scope.set(*slot, value.clone());
+            scope.set(*slot, value);
         }
         let entries = job.entries.len();
         let settings = job.integrals.iter().flat_map(|plan| &plan.settings);
@@ -113,6 +117,7 @@ impl<'j> Replay<'j> {
             stack: Stack::default(),
             sweep: None,
             overwritten: (0..entries).map(|_| None).collect(),
+            due: Due::new(job),
             entries: (0..entries).map(|_| None).collect(),
             incident: None,
             settings: job
@@ -176,8 +181,14 @@ impl<'j> Replay<'j> {
     fn evaluate_entries(&mut self) -> Result<String, Fault> {
         let mut listing = String::new();
         self.set_predefined();
-        for at in 0..self.job.entries.len() {
+        self.due.look_at(&self.scope);
+        let mut next = 0;
+        while let Some(at) = self.due.take(next) {
             self.evaluate_entry(at, &mut listing)?;
+            if let Some(slot) = self.job.entries[at].slot {
+                self.due.look_at_slot(&self.scope, slot);
+            }
+            next = at + 1;
         }
         if self.job.options.mode == Mode::Compat {
             self.parameters.forget_other_wavelengths();
@@ -212,6 +223,8 @@ impl<'j> Replay<'j> {
         if goes_on && let Some(sweep) = &mut self.sweep {
             for written in sweep.take_written() {
                 self.entries[written.entry] = None;
+                self.due.add(written.entry);
+                self.due.keep(written.entry, matches!(written.content, Content::Text(_)));
                 self.overwritten[written.entry] =
                     Some(Overwritten { content: written.content, expr: None });
             }
@@ -227,52 +240,34 @@ impl<'j> Replay<'j> {
         }
         let pi = 4.0 * 1f64.atan();
         for (slot, value) in slots.into_iter().zip([2.0, 360.0, pi, pi / 180.0]) {
-            self.scope.set(slot, value.into());
+            self.scope.set_number(slot, value);
         }
         self.predefined = Some(self.scope.now());
     }
 
     fn evaluate_entry(&mut self, at: usize, listing: &mut String) -> Result<(), Fault> {
         let entry = &self.job.entries[at];
-        let Some(slot) = entry.slot else {
-            let number;
-            let text = match &self.overwritten[at] {
-                Some(Overwritten { content: Content::Text(text), .. }) => text,
-                Some(Overwritten { content: Content::Number(x), .. }) => {
-                    number = Value::from(*x).to_text();
-                    &*number
-                }
-                None => self.text(entry).as_str(),
-            };
-            if self.last_sent[at].as_ref().is_some_and(|last| *last.text == *text) {
-                return Ok(());
-            }
-            let text = text.into();
-            return self.send(at, Sent { text, bits: None }, listing);
-        };
+        let Some(slot) = entry.slot else { return self.send_text(at, listing) };
         let is_sent = entry.parameter.is_none() || self.last_sent[at].is_some();
         if is_sent && self.stands(at, slot) {
             return Ok(());
         }
-        let known = self.entry_value(at, entry)?;
-        self.scope.set(slot, known.value.clone());
-        let bits = match known.value.as_slice() {
-            [one] => Some(one.to_bits()),
-            _ => None,
-        };
-        let sent = match &entry.parameter {
-            Some(_) => self.send_number(at, &known.value, bits, listing),
-            None => Ok(()),
-        };
-        self.entries[at] = Some(Given { known, put: self.scope.now() });
-        sent
+        self.renew(at, entry)?;
+        let given = self.entries[at].as_mut().expect("it was given just now");
+        self.scope.set(slot, &given.value);
+        given.put = self.scope.now();
+        if entry.parameter.is_some() {
+            let value = given.value.clone();
+            self.send_number(at, &value, listing)?;
+        }
+        Ok(())
     }
 
     /// Whether the slot of an entry holds what the entry would give now.
     fn stands(&self, at: usize, slot: u32) -> bool {
         self.entries[at].as_ref().is_some_and(|given| {
             self.scope.is_same_since(given.put, &[slot])
-                && self.scope.is_same_since(given.known.at, self.read_by(at))
+                && self.scope.is_same_since(given.at, self.read_by(at))
         })
     }
 
@@ -285,12 +280,15 @@ impl<'j> Replay<'j> {
         expr.map_or(&[], Expr::slots)
     }
 
-    fn entry_value(&mut self, at: usize, entry: &Entry) -> Result<Known<Value>, Fault> {
+    /// Evaluates an entry, unless what it gave last still holds.
+    fn renew(&mut self, at: usize, entry: &Entry) -> Result<(), Fault> {
         let text = self.text(entry);
         let expr = match &mut self.overwritten[at] {
             None => entry.expr.as_ref().expect("an entry with a slot has an expression"),
             Some(Overwritten { content: Content::Number(x), .. }) => {
-                return Ok(Known { at: self.scope.now(), value: (*x).into() });
+                let (at_now, value) = (self.scope.now(), Value::from(*x));
+                self.entries[at] = Some(Given { at: at_now, value, put: 0 });
+                return Ok(());
             }
             Some(Overwritten { content: Content::Text(written), expr }) => {
                 if expr.is_none() {
@@ -299,31 +297,45 @@ impl<'j> Replay<'j> {
                 expr.as_ref().expect("compiled just now")
             }
         };
-        if let Some(given) = self.entries[at].take()
-            && self.scope.is_same_since(given.known.at, expr.slots())
-        {
-            return Ok(given.known);
+        let holds = |given: &Given| self.scope.is_same_since(given.at, expr.slots());
+        if !self.entries[at].as_ref().is_some_and(holds) {
+            let value = self
+                .scope
+                .value(expr, &mut self.stack)
+                .map_err(|error| unknown(self.job, &self.scope, text, &error))?;
+            self.entries[at] = Some(Given { at: self.scope.now(), value, put: 0 });
         }
-        let value = self
-            .scope
-            .value(expr, &mut self.stack)
-            .map_err(|error| unknown(self.job, &self.scope, text, &error))?;
-        Ok(Known { at: self.scope.now(), value })
+        Ok(())
     }
 
     fn text(&self, entry: &Entry) -> &'j Text {
         &self.job.program.variables[entry.variable].value
     }
 
-    /// Sends the value of an entry to the model, unless the entry sent the same before; `bits` are
-    /// those of a single number.
-    fn send_number(
-        &mut self,
-        at: usize,
-        value: &Value,
-        bits: Option<u64>,
-        listing: &mut String,
-    ) -> Result<(), Fault> {
+    /// Sends the text of an entry to the model, unless the entry sent the same before.
+    fn send_text(&mut self, at: usize, listing: &mut String) -> Result<(), Fault> {
+        let number;
+        let text = match &self.overwritten[at] {
+            Some(Overwritten { content: Content::Text(text), .. }) => text,
+            Some(Overwritten { content: Content::Number(x), .. }) => {
+                number = Value::from(*x).to_text();
+                &*number
+            }
+            None => self.text(&self.job.entries[at]).as_str(),
+        };
+        if self.last_sent[at].as_ref().is_some_and(|last| *last.text == *text) {
+            return Ok(());
+        }
+        let text = text.into();
+        self.send(at, Sent { text, bits: None }, listing)
+    }
+
+    /// Sends the value of an entry to the model, unless the entry sent the same before.
+    fn send_number(&mut self, at: usize, value: &Value, listing: &mut String) -> Result<(), Fault> {
+        let bits = match value.as_slice() {
+            [one] => Some(one.to_bits()),
+            _ => None,
+        };
         if bits.is_some() && self.last_sent[at].as_ref().is_some_and(|last| last.bits == bits) {
             return Ok(());
         }
@@ -385,6 +397,7 @@ impl<'j> Replay<'j> {
             let below = entry.parameter.as_deref().and_then(|p| p.strip_prefix(name));
             if other != at && below.is_some_and(|rest| rest.starts_with('.')) {
                 self.last_sent[other] = None;
+                self.due.add(other);
             }
         }
     }

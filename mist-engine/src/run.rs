@@ -410,10 +410,10 @@ impl<'a> Runner<'a> {
                     }
                 };
                 let last = last.copied().unwrap_or(Evaluated::NONE);
-                replay.scope.set(plan.slot, last.value.into());
+                replay.scope.set_number(plan.slot, last.value);
                 let errors = self.job.errors.iter().flat_map(ErrorColumns::all);
                 for column in errors.filter(|column| column.integral == number) {
-                    replay.scope.set(column.slot, last.error.into());
+                    replay.scope.set_number(column.slot, last.error);
                 }
             }
             if at == all.len() {

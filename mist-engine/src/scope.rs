@@ -62,16 +62,29 @@ impl Scope {
         Self { values: vec![None; slots], changed: vec![0; slots], changes: 0, library }
     }
 
-    pub(crate) fn set(&mut self, slot: u32, value: Value) {
-        self.put(slot, Some(value));
+    pub(crate) fn set(&mut self, slot: u32, value: &Value) {
+        if !same(self.get(slot), Some(value)) {
+            self.replace(slot, Some(value.clone()));
+        }
     }
 
-    pub(crate) fn put(&mut self, slot: u32, value: Option<Value>) {
-        let slot = slot as usize;
-        if !same(self.values[slot].as_ref(), value.as_ref()) {
-            self.changes += 1;
-            self.changed[slot] = self.changes;
-            self.values[slot] = value;
+    pub(crate) fn put(&mut self, slot: u32, value: Option<&Value>) {
+        if !same(self.get(slot), value) {
+            self.replace(slot, value.cloned());
+        }
+    }
+
+    fn replace(&mut self, slot: u32, value: Option<Value>) {
+        self.changes += 1;
+        self.changed[slot as usize] = self.changes;
+        self.values[slot as usize] = value;
+    }
+
+    /// [`Scope::set`] of one number.
+    pub(crate) fn set_number(&mut self, slot: u32, x: f64) {
+        let held = self.values[slot as usize].as_ref().map(Value::as_slice);
+        if !matches!(held, Some([one]) if one.to_bits() == x.to_bits()) {
+            self.replace(slot, Some(x.into()));
         }
     }
 
@@ -82,6 +95,11 @@ impl Scope {
     /// The time as the scope counts it: how many changes there were.
     pub(crate) fn now(&self) -> u64 {
         self.changes
+    }
+
+    /// The slots that have changed since `then`.
+    pub(crate) fn changed_since(&self, then: u64) -> impl Iterator<Item = usize> {
+        (0..).zip(&self.changed).filter(move |(_, at)| **at > then).map(|(slot, _)| slot)
     }
 
     /// Whether none of `slots` has changed since `then`.
@@ -119,7 +137,8 @@ fn same(a: Option<&Value>, b: Option<&Value>) -> bool {
     match (a, b) {
         (Some(a), Some(b)) => {
             let (a, b) = (a.as_slice(), b.as_slice());
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+            let mut pairs = a.iter().zip(b);
+            a.len() == b.len() && pairs.all(|(a, b)| a.to_bits() == b.to_bits())
         }
         (None, None) => true,
         _ => false,
@@ -139,13 +158,13 @@ mod tests {
     fn only_another_value_is_a_change() {
         let library = Library::new(Arc::new(MemoryFiles::default()), Dialect::Sound);
         let mut scope = Scope::new(2, library);
-        scope.set(0, 0.0.into());
-        scope.set(1, f64::NAN.into());
+        scope.set_number(0, 0.0);
+        scope.set_number(1, f64::NAN);
         let then = scope.now();
-        scope.set(0, 0.0.into());
-        scope.set(1, f64::NAN.into());
+        scope.set_number(0, 0.0);
+        scope.set_number(1, f64::NAN);
         assert!(scope.is_same_since(then, &[0, 1, u32::MAX]));
-        scope.set(0, (-0.0).into());
+        scope.set(0, &(-0.0).into());
         assert!(!scope.is_same_since(then, &[1, 0]) && scope.is_same_since(then, &[1]));
         scope.put(1, None);
         assert!(!scope.is_same_since(then, &[1]));

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use mist_format::expr::{Expr, Value};
+use mist_format::{
+    expr::{Expr, Value},
+    number::general,
+};
 use scattering::Stokes;
 
 use crate::{
@@ -81,13 +84,21 @@ impl Evaluated {
     pub(crate) const NONE: Self = Self { value: f64::NAN, error: f64::NAN };
 }
 
+/// Digits of numbers in loop columns; the program's `format` does not concern them.
+pub(crate) const COLUMN_DIGITS: usize = 6;
+
 /// What a loop column shows.
 #[derive(Clone, Debug)]
 pub(crate) enum Cell {
     /// Text as it is.
     Text(Arc<str>),
-    /// A number, printed with six digits.
-    Number(f64),
     /// An expression of a LIST file, evaluated with the new variables.
     Expression(Arc<Expr>),
+}
+
+impl Cell {
+    /// The number `x`.
+    pub(crate) fn of(x: f64) -> Self {
+        Self::Text(general(x, COLUMN_DIGITS).into())
+    }
 }

@@ -143,7 +143,7 @@ impl<'j> Sweep<'j> {
         let mut cells = Vec::with_capacity(self.plans.len());
         for (plan, state) in self.plans.iter().zip(&self.states).rev() {
             match (plan, state) {
-                (LoopPlan::For(plan), LoopState::For(state)) => cells.push(state.cell(plan)),
+                (LoopPlan::For(_), LoopState::For(state)) => cells.push(state.cell().clone()),
                 (LoopPlan::List(_), LoopState::List(state)) => {
                     cells.extend_from_slice(state.cells())
                 }

@@ -292,6 +292,10 @@ impl<'a> Shared<'a> {
         todo.look_at(&step.integrals, layouts);
         for number in 0..step.integrals.len() {
             let (aperture, place) = &todo.apertures[number];
+            if number > 0 && todo.apertures[number - 1].0 == *aperture {
+                todo.places.extend_from_within(todo.places.len() - 1..);
+                continue;
+            }
             let key = Key::new(step, model, *aperture);
             if let Some((last, place)) = todo.last
                 && last == key

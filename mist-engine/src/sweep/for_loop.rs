@@ -3,6 +3,8 @@
 //! The value is accumulated: a, b and s are evaluated whenever they are used, with the
 //! variables of the step that just ended. The first value is never tested.
 
+use std::sync::Arc;
+
 use mist_format::{
     Diagnostic,
     expr::Expr,
@@ -39,10 +41,21 @@ pub(crate) struct ForState {
     fraction: f64,
     /// How often it was advanced since it was started.
     at: usize,
-    /// What was written for the first values, with their bits: a loop that is started again
-    /// mostly has the same ones.
-    contents: Vec<(u64, Content)>,
+    cell: Cell,
+    /// What was made of the first values: a loop that is started again mostly has the same ones.
+    known: Vec<Known>,
     bounds: Bounds,
+}
+
+/// What is made of a value.
+#[derive(Clone)]
+struct Known {
+    /// Of the value.
+    bits: u64,
+    /// What is written into the entry.
+    content: Content,
+    /// What is shown.
+    cell: Cell,
 }
 
 /// What the expressions of a, b and s gave last, and when; they are evaluated again when a
@@ -54,7 +67,7 @@ struct Bounds {
     by: Option<(u64, f64)>,
 }
 
-/// Contents that a loop keeps.
+/// Values of which a loop keeps what was made.
 const KEPT: usize = 1 << 12;
 
 fn bound(
@@ -85,7 +98,8 @@ impl ForState {
             value: f64::NAN,
             fraction: 0.0,
             at: 0,
-            contents: Vec::new(),
+            cell: Cell::Text("".into()),
+            known: Vec::new(),
             bounds: Bounds::default(),
         };
         state.restart(plan, context, written)?;
@@ -142,12 +156,9 @@ impl ForState {
         Ok(inside)
     }
 
-    pub(crate) fn cell(&self, plan: &ForPlan) -> Cell {
-        if plan.is_text {
-            Cell::Text(number::loop_text(self.value).into())
-        } else {
-            Cell::Number(self.value)
-        }
+    /// What its column shows.
+    pub(crate) fn cell(&self) -> &Cell {
+        &self.cell
     }
 
     pub(crate) fn fraction(&self) -> f64 {
@@ -156,28 +167,29 @@ impl ForState {
 
     fn write(&mut self, plan: &ForPlan, written: &mut Vec<Written>) {
         let bits = self.value.to_bits();
-        let content = match self.contents.get_mut(self.at) {
-            Some((known, content)) if *known == bits => content.clone(),
-            Some(kept) => {
-                *kept = (bits, content(self.value, plan.is_text));
-                kept.1.clone()
+        let known = self.known.get(self.at).filter(|known| known.bits == bits).cloned();
+        let made = known.unwrap_or_else(|| {
+            let made = Known::of(self.value, plan.is_text);
+            match self.known.get_mut(self.at) {
+                Some(known) => *known = made.clone(),
+                None if self.at < KEPT => self.known.push(made.clone()),
+                None => {}
             }
-            None => {
-                let content = content(self.value, plan.is_text);
-                if self.at < KEPT {
-                    self.contents.push((bits, content.clone()));
-                }
-                content
-            }
-        };
-        written.push(Written { entry: plan.entry, content });
+            made
+        });
+        self.cell = made.cell;
+        written.push(Written { entry: plan.entry, content: made.content });
     }
 }
 
-/// What a loop with this value writes.
-fn content(value: f64, is_text: bool) -> Content {
-    let number = if is_text { None } else { number::reread(value) };
-    number.map_or_else(|| Content::Text(number::loop_text(value).into()), Content::Number)
+impl Known {
+    fn of(value: f64, is_text: bool) -> Self {
+        let number = if is_text { None } else { number::reread(value) };
+        let text = || Arc::<str>::from(number::loop_text(value));
+        let cell = if is_text { Cell::Text(text()) } else { Cell::of(value) };
+        let content = number.map_or_else(|| Content::Text(text()), Content::Number);
+        Self { bits: value.to_bits(), content, cell }
+    }
 }
 
 fn endless(plan: &ForPlan, from: f64, to: f64, by: f64) -> Fault {

@@ -108,7 +108,7 @@ fn evaluate(
     context: &mut Context<'_>,
 ) -> Result<(String, Cell), Fault> {
     if let Some(x) = whole_number(raw) {
-        return Ok((Value::from(x).to_text(), Cell::Number(x)));
+        return Ok((Value::from(x).to_text(), Cell::of(x)));
     }
     let name = plan.statement.file.as_str();
     let wrong = |diagnostic: Diagnostic| {

@@ -98,7 +98,7 @@ struct Vector<S: Simd> {
 
 impl<S: Simd> Vector<S> {
     #[inline(always)]
-    fn new(self, x: S::f64s) -> Self {
+    fn with(self, x: S::f64s) -> Self {
         Self { simd: self.simd, x }
     }
 
@@ -112,7 +112,7 @@ impl<S: Simd> Vector<S> {
 impl<S: Simd> Real for Vector<S> {
     #[inline(always)]
     fn all(self, x: f64) -> Self {
-        self.new(self.simd.splat_f64s(x))
+        self.with(self.simd.splat_f64s(x))
     }
 
     #[inline(always)]
@@ -122,19 +122,19 @@ impl<S: Simd> Real for Vector<S> {
 
     #[inline(always)]
     fn abs(self) -> Self {
-        self.new(self.simd.abs_f64s(self.x))
+        self.with(self.simd.abs_f64s(self.x))
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        self.new(self.simd.sqrt_f64s(self.x))
+        self.with(self.simd.sqrt_f64s(self.x))
     }
 
     #[inline(always)]
     fn choose(self, a: Self, b: Self) -> Self {
         let simd = self.simd;
         let is_positive = simd.greater_than_or_equal_f64s(self.x, simd.splat_f64s(0.0));
-        self.new(simd.select_f64s(is_positive, a.x, b.x))
+        self.with(simd.select_f64s(is_positive, a.x, b.x))
     }
 }
 
@@ -143,7 +143,7 @@ impl<S: Simd> Neg for Vector<S> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        self.new(self.simd.neg_f64s(self.x))
+        self.with(self.simd.neg_f64s(self.x))
     }
 }
 
@@ -154,7 +154,7 @@ macro_rules! arithmetic {
 
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
-                self.new(self.simd.$of_vectors(self.x, other.x))
+                self.with(self.simd.$of_vectors(self.x, other.x))
             }
         }
 
