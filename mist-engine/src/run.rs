@@ -10,7 +10,7 @@ use std::{
 };
 
 use gather::{Gather, price};
-use lanes::Lanes;
+use lanes::{Lanes, Round};
 use scattering::{Defect, Notice};
 
 use crate::{
@@ -220,34 +220,45 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// All blocks of steps that stand alone: some are replayed, then evaluated; gives their number.
+    /// All blocks of steps that stand alone: while some are evaluated the next ones are replayed;
+    /// gives their number.
     fn side_by_side(&mut self, mut first: Vec<Step>, mut lanes: Lanes<'a>) -> Result<u64, Failure> {
         let block_started = Instant::now();
         if let Some(fraction) = first.last().map(|last| self.fraction(last)) {
             self.evaluate(&mut first, None)?;
             self.end_block(fraction, block_started)?;
         }
-        let alone = self.fold.is_none() && self.job.lines_stand_alone();
-        loop {
+        let threads = rayon::current_num_threads();
+        let mut round = Round::new(self.job, threads);
+        let mut goes_on = lanes.replay(self.pace.saturating_mul(threads))?;
+        while goes_on {
             let block_started = Instant::now();
-            if !lanes.replay(self.pace.saturating_mul(rayon::current_num_threads()))? {
-                return Ok(lanes.count());
-            }
-            let steps: Vec<&Step> = lanes.steps().collect();
-            let fraction = steps.last().map_or(1.0, |last| self.fraction(last));
-            let all = self.finished(&steps)?;
-            if alone {
-                lanes.fill(&all)?;
-                for ((step, line), finished) in lanes.lines().zip(&all) {
-                    emit(self.sink, step, line, finished)?;
-                }
-            } else {
-                for (step, finished) in steps.into_iter().zip(&all) {
-                    self.write(step, finished)?;
-                }
-            }
+            lanes.hand_over(&mut round);
+            let fraction = round.steps().last().map_or(1.0, |last| self.fraction(last));
+            let most = self.pace.saturating_mul(threads);
+            let (done, next) = rayon::join(|| self.finish(&mut round), || lanes.replay(most));
+            done?;
             self.end_block(fraction, block_started)?;
+            goes_on = next?;
         }
+        Ok(lanes.count())
+    }
+
+    /// Evaluates a round and writes it.
+    fn finish(&mut self, round: &mut Round<'a>) -> Result<(), Failure> {
+        let steps: Vec<&Step> = round.steps().collect();
+        let all = self.finished(&steps)?;
+        if self.fold.is_none() && self.job.lines_stand_alone() {
+            round.fill(&all)?;
+            for ((step, line), finished) in round.lines().zip(&all) {
+                emit(self.sink, step, line, finished)?;
+            }
+        } else {
+            for (step, finished) in steps.into_iter().zip(&all) {
+                self.write(step, finished)?;
+            }
+        }
+        Ok(())
     }
 
     /// All blocks, the first one at hand; while one is evaluated the next one is replayed. Gives

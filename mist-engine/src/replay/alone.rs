@@ -48,11 +48,15 @@ impl<'j> Alone<'j> {
 }
 
 impl Job {
-    /// Whether no output reads what it or one behind it gave in the line before.
+    /// Whether no output reads what it or one behind it gave in the line before: every line
+    /// begins with the variables and the integrals of its step, whatever outputs are called.
     pub(crate) fn lines_stand_alone(&self) -> bool {
+        let variables = self.entries.iter().filter_map(|entry| entry.slot);
+        let integrals = self.integrals.iter().map(|plan| plan.slot);
+        let fresh: BTreeSet<u32> = variables.chain(integrals).collect();
         self.outputs.iter().enumerate().all(|(at, output)| {
             let later: BTreeSet<u32> = self.outputs[at..].iter().map(|other| other.slot).collect();
-            output.expr.slots().iter().all(|slot| !later.contains(slot))
+            output.expr.slots().iter().all(|slot| fresh.contains(slot) || !later.contains(slot))
         })
     }
 }
