@@ -328,17 +328,57 @@ mod tests {
         assert!(f64::NAN.exp_falling().is_nan());
     }
 
+    #[inline(always)]
+    fn formula<R: Real>(x: R, y: R) -> R {
+        let z = Complex { re: x, im: y - 0.3 };
+        let w = z.over(Complex { re: y, im: x * 2.0 + 1.0 }) * (x * x + y).sqrt();
+        let (sin, _) = w.im.sin_cos();
+        (x - y).choose((-(w.norm_sqr())).exp_falling(), (w.re + sin).abs() / y)
+    }
+
+    /// The formula in the registers of this processor.
+    struct Formula<'a>([f64; WIDTH], [f64; WIDTH], &'a mut [f64; WIDTH]);
+
+    impl Batch for Formula<'_> {
+        #[inline(always)]
+        fn run<V: Vectors>(self, vectors: V) {
+            *self.2 = vectors.store(formula(vectors.load(&self.0), vectors.load(&self.1)));
+        }
+    }
+
     #[test]
     fn every_lane_has_the_bits_of_its_number_alone() {
-        fn formula<R: Real>(x: R, y: R) -> R {
-            let z = Complex { re: x, im: y - 0.3 };
-            let w = z.over(Complex { re: y, im: x * 2.0 + 1.0 }) * (x * x + y).sqrt();
-            (x - y).choose((-(w.norm_sqr())).exp_falling(), w.re / y)
-        }
         let (x, y) = ([0.1, 7.0, 0.2, 1e-3], [0.4, 6.9, 0.3, 0.0]);
-        let all = formula(Lanes(x), Lanes(y));
+        let arrays = formula(Lanes(x), Lanes(y)).0;
+        let mut registers = [0.0; WIDTH];
+        with_widest(Formula(x, y, &mut registers));
         for k in 0..WIDTH {
-            assert_eq!(all.0[k].to_bits(), formula(x[k], y[k]).to_bits());
+            let alone = formula(x[k], y[k]).to_bits();
+            assert_eq!([arrays[k].to_bits(), registers[k].to_bits()], [alone; 2]);
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_number_chooses_and_stays_the_same_in_every_kind_of_lane() {
+        let x = [f64::NAN, -0.0, f64::INFINITY, f64::NEG_INFINITY];
+        let y = [1.0, f64::NAN, -2.0, -0.0];
+        let arrays = Lanes(x).choose(Lanes(y), Lanes([5.0; WIDTH])).0;
+        let mut registers = [0.0; WIDTH];
+        with_widest(Choice(x, y, &mut registers));
+        for k in 0..WIDTH {
+            let alone = x[k].choose(y[k], 5.0).to_bits();
+            assert_eq!([arrays[k].to_bits(), registers[k].to_bits()], [alone; 2]);
+        }
+    }
+
+    /// The second numbers where the first are not negative, 5 elsewhere.
+    struct Choice<'a>([f64; WIDTH], [f64; WIDTH], &'a mut [f64; WIDTH]);
+
+    impl Batch for Choice<'_> {
+        #[inline(always)]
+        fn run<V: Vectors>(self, vectors: V) {
+            let (x, y) = (vectors.load(&self.0), vectors.load(&self.1));
+            *self.2 = vectors.store(x.choose(y, x.all(5.0)));
         }
     }
 }

@@ -123,9 +123,8 @@ mod tests {
         }
     }
 
-    #[test]
-    fn points_in_line_with_the_vertices_of_rings_are_decided_by_their_edges() {
-        // Two rings joined by a bridge, a small one, and one with edges along the axes.
+    /// Two rings joined by a bridge, a small one, and one with edges along the axes.
+    fn odd_ones() -> [Vec<DVec2>; 3] {
         let ring = |radius: f64, count: usize| {
             let step = std::f64::consts::TAU / count as f64;
             (0..=count).map(move |k| DVec2::from_angle(step * k as f64) * radius)
@@ -133,8 +132,37 @@ mod tests {
         let joined: Vec<DVec2> = ring(0.3, 90).chain(ring(0.7, 90)).collect();
         let small: Vec<DVec2> = ring(1e-8, 40).collect();
         let stairs = [(0.0, 0.0), (0.6, 0.0), (0.6, 0.2), (0.3, 0.2), (0.3, 0.5), (0.0, 0.5)];
-        let stairs = stairs.map(|(x, y)| DVec2::new(x, y)).to_vec();
-        for vertices in [joined, small, stairs] {
+        [joined, small, stairs.map(|(x, y)| DVec2::new(x, y)).to_vec()]
+    }
+
+    #[test]
+    fn surroundings_that_are_alike_have_no_point_that_differs() {
+        for vertices in odd_ones().into_iter().chain([star()]) {
+            let polygon = Polygon::new(vertices.clone());
+            let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
+            let grid = |k: i32| f64::from(k) * 0.04 * reach;
+            let (mut known, mut all) = (0, 0);
+            for p in (-30..=30).flat_map(|i| (-30..=30).map(move |j| (i, j))) {
+                let p = DVec2::new(grid(p.0), grid(p.1));
+                let near = 0.05 * reach;
+                let Some(state) = polygon.alike(p, near) else { continue };
+                known += 1;
+                let around = (0..24).map(|k| p + DVec2::from_angle(0.3 * f64::from(k)) * near);
+                // Points in line with vertices are the ones that the rules may decide otherwise.
+                let in_line = vertices.iter().filter(|v| (v.x - p.x).abs() < near);
+                let in_line = in_line.map(|v| DVec2::new(v.x, p.y));
+                for q in around.chain(in_line).chain([p]) {
+                    all += 1;
+                    assert_eq!(polygon.contains(q), state, "{q} next to {p}");
+                }
+            }
+            assert!(known > 500 && all > known, "{known}");
+        }
+    }
+
+    #[test]
+    fn points_in_line_with_the_vertices_of_rings_are_decided_by_their_edges() {
+        for vertices in odd_ones() {
             let polygon = Polygon::new(vertices.clone());
             let plain = |p| edges(&vertices).filter(|e| e.counts(p)).count() % 2 == 1;
             let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);

@@ -95,7 +95,7 @@ pub(super) struct Run {
 }
 
 /// Points of a run, at most.
-const LONGEST: usize = 16;
+const LONGEST: usize = 8;
 
 impl Run {
     /// No point yet of the column at x.

@@ -56,50 +56,67 @@ impl Slabs {
         }
         let per_x = if high > low { count as f64 / (high - low) } else { 0.0 };
         let mut slabs = Self { low, high, per_x, ..Self::default() };
-        let mut lists = vec![Vec::new(); count];
-        for edge in edges {
+        let reach = |edge: &Edge| {
             let (from, to) = (edge.a.x.min(edge.b.x), edge.a.x.max(edge.b.x));
-            for list in &mut lists[slabs.index(from, count)..=slabs.index(to, count)] {
-                list.push(*edge);
+            slabs.index(from, count)..=slabs.index(to, count)
+        };
+        // Where the edges of each slab begin, and behind the last one where they end.
+        let mut starts = vec![0; count + 1];
+        edges.iter().flat_map(reach).for_each(|k| starts[k + 1] += 1);
+        for k in 0..count {
+            starts[k + 1] += starts[k];
+        }
+        let (mut sorted, mut next) = (vec![edges[0]; starts[count]], starts.clone());
+        for edge in edges {
+            for k in reach(edge) {
+                sorted[next[k]] = *edge;
+                next[k] += 1;
             }
         }
+        slabs.edges = sorted;
         let turns: Vec<DVec2> = turns(edges).collect();
-        for (k, list) in lists.iter().enumerate() {
-            slabs.push(k, list, &turns);
+        for (k, ends) in starts.windows(2).enumerate() {
+            slabs.push(k, [ends[0], ends[1]], &turns);
         }
         slabs
     }
 
-    /// Adds slab `k`, which holds `edges`.
-    fn push(&mut self, k: usize, edges: &[Edge], turns: &[DVec2]) {
-        let first = self.edges.len();
-        self.edges.extend(edges);
+    /// Adds slab `k`, which holds the edges in `place`.
+    fn push(&mut self, k: usize, place: [usize; 2], turns: &[DVec2]) {
         let at = |k: usize| self.low + k as f64 / self.per_x;
         let (left, right) = (at(k) - MARGIN, at(k + 1) + MARGIN);
         let here = turns.iter().filter(|turn| (left..=right).contains(&turn.x));
         // A polygon without a width is a single slab in which the edges decide.
         let no_width = if self.per_x == 0.0 { f64::INFINITY } else { f64::NEG_INFINITY };
         let turn = here.map(|turn| turn.y + MARGIN).fold(no_width, f64::max);
-        let mut bands: Vec<Band> = edges.iter().filter_map(|edge| edge.band(left, right)).collect();
+        let edges = &self.edges[place[0]..place[1]];
+        let first = self.bands.len();
+        self.bands.extend(edges.iter().filter_map(|edge| edge.band(left, right)));
+        let bands = &mut self.bands[first..];
         bands.sort_unstable_by(|one, other| one.from.total_cmp(&other.from));
-        bands.dedup_by(|next, band| {
-            let touches = next.from <= band.to;
-            band.to = if touches { band.to.max(next.to) } else { band.to };
-            touches
-        });
-        // Between two bands any point tells about all.
+        // Bands that touch become one. Between two bands any point tells about all.
         let inside = |y: f64| counted(edges, DVec2::new(0.5 * (left + right), y));
-        let ends: Vec<f64> = bands.iter().map(|band| band.to).collect();
-        for (at, band) in bands.iter_mut().enumerate() {
-            let below = at.checked_sub(1).map(|below| ends[below]);
-            band.below = inside(below.map_or(band.from - 1.0, |end| 0.5 * (end + band.from)));
+        let (mut count, mut end) = (0, None);
+        for k in 0..bands.len() {
+            let band = bands[k];
+            match end {
+                Some(end) if band.from <= end => {
+                    let last = &mut bands[count - 1];
+                    last.to = last.to.max(band.to);
+                }
+                _ => {
+                    let y = end.map_or(band.from - 1.0, |end| 0.5 * (end + band.from));
+                    bands[count] = Band { below: inside(y), ..band };
+                    count += 1;
+                }
+            }
+            end = Some(bands[count - 1].to);
         }
-        let above = ends.last().is_some_and(|end| inside(end + 1.0));
-        let first_band = self.bands.len();
-        self.bands.extend(bands);
+        let above = end.is_some_and(|end| inside(end + 1.0));
+        self.bands.truncate(first + count);
         self.slabs.push(Slab {
-            edges: [first as u32, self.edges.len() as u32],
-            bands: [first_band as u32, self.bands.len() as u32],
+            edges: place.map(|at| at as u32),
+            bands: [first as u32, self.bands.len() as u32],
             above,
             turn,
         });
