@@ -6,13 +6,15 @@
 
 use std::io;
 
+use smallvec::SmallVec;
+
 use crate::step::Evaluated;
 
 /// What the evaluation of one step gave.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Finished {
     /// The integrals, in the order of the program.
-    pub values: Vec<Evaluated>,
+    pub values: SmallVec<[Evaluated; 4]>,
     /// The lines of the samples file, if the program has one.
     pub samples: String,
 }

@@ -29,7 +29,7 @@ use crate::{
     region::Apertures,
     sampling::{Sampling, adaptive::Demand},
     scope::Scope,
-    step::{Integral, Step},
+    step::{Integral, Listing, Step},
     sweep::{Content, Context, Sweep},
 };
 
@@ -178,8 +178,8 @@ impl<'j> Replay<'j> {
     }
 
     /// Evaluates all entries; gives their part of the listing.
-    fn evaluate_entries(&mut self) -> Result<String, Fault> {
-        let mut listing = String::new();
+    fn evaluate_entries(&mut self) -> Result<Listing, Fault> {
+        let mut listing = Listing::new();
         self.set_predefined();
         self.due.look_at(&self.scope);
         let mut next = 0;
@@ -245,7 +245,7 @@ impl<'j> Replay<'j> {
         self.predefined = Some(self.scope.now());
     }
 
-    fn evaluate_entry(&mut self, at: usize, listing: &mut String) -> Result<(), Fault> {
+    fn evaluate_entry(&mut self, at: usize, listing: &mut Listing) -> Result<(), Fault> {
         let entry = &self.job.entries[at];
         let Some(slot) = entry.slot else { return self.send_text(at, listing) };
         let is_sent = entry.parameter.is_none() || self.last_sent[at].is_some();
@@ -313,7 +313,7 @@ impl<'j> Replay<'j> {
     }
 
     /// Sends the text of an entry to the model, unless the entry sent the same before.
-    fn send_text(&mut self, at: usize, listing: &mut String) -> Result<(), Fault> {
+    fn send_text(&mut self, at: usize, listing: &mut Listing) -> Result<(), Fault> {
         let number;
         let text = match &self.overwritten[at] {
             Some(Overwritten { content: Content::Text(text), .. }) => text,
@@ -331,7 +331,12 @@ impl<'j> Replay<'j> {
     }
 
     /// Sends the value of an entry to the model, unless the entry sent the same before.
-    fn send_number(&mut self, at: usize, value: &Value, listing: &mut String) -> Result<(), Fault> {
+    fn send_number(
+        &mut self,
+        at: usize,
+        value: &Value,
+        listing: &mut Listing,
+    ) -> Result<(), Fault> {
         let bits = match value.as_slice() {
             [one] => Some(one.to_bits()),
             _ => None,
@@ -353,19 +358,20 @@ impl<'j> Replay<'j> {
         }
         if let Some(known) = known {
             self.parameters = known.after;
-            self.sent(at, Sent { text, bits }, listing);
+            listing.push(known.line);
+            self.sent(at, Sent { text, bits });
             return Ok(());
         }
         self.send(at, Sent { text: text.clone(), bits }, listing)?;
-        if let Some(setting) = setting {
-            let after = self.parameters.clone();
-            self.known_settings.insert(setting, settings::Known { text, after });
+        if let (Some(setting), Some(line)) = (setting, listing.last()) {
+            let (line, after) = (line.clone(), self.parameters.clone());
+            self.known_settings.insert(setting, settings::Known { text, line, after });
         }
         Ok(())
     }
 
     /// Sends a parameter to the model.
-    fn send(&mut self, at: usize, sent: Sent, listing: &mut String) -> Result<(), Fault> {
+    fn send(&mut self, at: usize, sent: Sent, listing: &mut Listing) -> Result<(), Fault> {
         let entry = &self.job.entries[at];
         let name = entry.parameter.as_deref().expect("only parameters are sent");
         let (mode, previous) = (self.job.options.mode, self.previous.as_ref());
@@ -375,16 +381,14 @@ impl<'j> Replay<'j> {
             let place = if error.is_about_the_name() { &variable.name } else { &variable.value };
             Box::new(error.diagnostic(place.span()))
         })?;
-        self.sent(at, sent, listing);
+        listing.push(format!("Setting parameter {name} to {}\n", sent.text).into());
+        self.sent(at, sent);
         Ok(())
     }
 
     /// Notes that a parameter is set.
-    fn sent(&mut self, at: usize, sent: Sent, listing: &mut String) {
+    fn sent(&mut self, at: usize, sent: Sent) {
         let name = self.job.entries[at].parameter.as_deref().expect("only parameters are sent");
-        let line = ["Setting parameter ", name, " to ", &sent.text, "\n"];
-        listing.reserve(line.iter().map(|part| part.len()).sum());
-        line.iter().for_each(|part| listing.push_str(part));
         if !Quirk::NoResend.applies_in(self.job.options.mode) {
             self.forget_below(at, name);
         }
@@ -402,7 +406,7 @@ impl<'j> Replay<'j> {
         }
     }
 
-    fn step(&mut self, listing: String) -> Result<Step, Fault> {
+    fn step(&mut self, listing: Listing) -> Result<Step, Fault> {
         let job = self.job;
         let required = &job.required;
         let theta_i = self.required(required.incidentangle)?;

@@ -428,7 +428,7 @@ impl<'a> Runner<'a> {
                 }
             }
             if at == all.len() {
-                all.push(Finished { values, samples: self.samples(step) });
+                all.push(Finished { values: values.into(), samples: self.samples(step) });
             }
         }
         self.keep(block.iter(), known, &all)?;
@@ -438,8 +438,8 @@ impl<'a> Runner<'a> {
 
 /// Writes what `step` has to say: its part of the listing, its line, its samples.
 fn emit(sink: &mut dyn Sink, step: &Step, line: &Line, finished: &Finished) -> Result<(), Failure> {
-    if !step.listing.is_empty() {
-        sink.write(Stream::Listing, &step.listing)?;
+    for line in &step.listing {
+        sink.write(Stream::Listing, line)?;
     }
     sink.write(Stream::Results, &line.text)?;
     sink.row(line)?;

@@ -7,6 +7,7 @@ use mist_format::{
     number::general,
 };
 use scattering::Stokes;
+use smallvec::SmallVec;
 
 use crate::{
     parameters::Parameters,
@@ -33,12 +34,12 @@ pub struct Step {
     /// The incident light of integrals without INPOL.
     pub(crate) incident: Stokes,
     /// What the columns of the loops show.
-    pub(crate) columns: Vec<Cell>,
+    pub(crate) columns: Cells,
     /// Values of the variables that outputs read, parallel to the job's `reads`; shared with the
     /// step before if equal.
     pub(crate) values: Arc<[Option<Value>]>,
     /// Lines for the listing.
-    pub(crate) listing: String,
+    pub(crate) listing: Listing,
     /// How often each loop was advanced since its reset; nothing where no colours are made.
     pub(crate) counts: Vec<u64>,
     /// How far the first declared loop is, from 0 to 1.
@@ -84,8 +85,14 @@ impl Evaluated {
     pub(crate) const NONE: Self = Self { value: f64::NAN, error: f64::NAN };
 }
 
+/// Lines for the listing, mostly none or one.
+pub(crate) type Listing = SmallVec<[Arc<str>; 1]>;
+
 /// Digits of numbers in loop columns; the program's `format` does not concern them.
 pub(crate) const COLUMN_DIGITS: usize = 6;
+
+/// What the columns of the loops show: of a few loops without memory of their own.
+pub(crate) type Cells = SmallVec<[Cell; 4]>;
 
 /// What a loop column shows.
 #[derive(Clone, Debug)]

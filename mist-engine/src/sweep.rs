@@ -15,7 +15,7 @@ use std::sync::Arc;
 use mist_format::expr::Stack;
 use scattering::Mode;
 
-use crate::{fault::Fault, scope::Scope, step::Cell};
+use crate::{fault::Fault, scope::Scope, step::Cells};
 
 /// A loop as compiled.
 pub(crate) enum LoopPlan {
@@ -139,13 +139,13 @@ impl<'j> Sweep<'j> {
     }
 
     /// The loop columns of the current step: the last declared loop first.
-    pub(crate) fn cells(&self) -> Vec<Cell> {
-        let mut cells = Vec::with_capacity(self.plans.len());
+    pub(crate) fn cells(&self) -> Cells {
+        let mut cells = Cells::new();
         for (plan, state) in self.plans.iter().zip(&self.states).rev() {
             match (plan, state) {
                 (LoopPlan::For(_), LoopState::For(state)) => cells.push(state.cell().clone()),
                 (LoopPlan::List(_), LoopState::List(state)) => {
-                    cells.extend_from_slice(state.cells())
+                    cells.extend(state.cells().iter().cloned());
                 }
                 _ => {}
             }

@@ -25,6 +25,8 @@ pub(super) struct Setting {
 pub(super) struct Known {
     /// The number as it was sent.
     pub(super) text: Arc<str>,
+    /// What the listing says of it.
+    pub(super) line: Arc<str>,
     pub(super) after: Parameters,
 }
 

@@ -106,7 +106,7 @@ fn decode(bytes: &[u8]) -> Option<Finished> {
         let (value, error) = bytes.split_at_checked(NUMBER)?;
         Some(Evaluated { value: number(value)?, error: number(error)? })
     };
-    let values: Option<Vec<Evaluated>> = values.chunks(2 * NUMBER).map(integral).collect();
+    let values: Option<_> = values.chunks(2 * NUMBER).map(integral).collect();
     Some(Finished { values: values?, samples: String::from_utf8(samples.to_vec()).ok()? })
 }
 
@@ -120,7 +120,8 @@ mod tests {
             values: vec![
                 Evaluated { value: 0.1 + 0.2, error: -0.0 },
                 Evaluated { value: f64::INFINITY, error: f64::from_bits(1) },
-            ],
+            ]
+            .into(),
             samples: "0\t1\n".into(),
         };
         let back = decode(&encode(&step)).unwrap();
