@@ -249,10 +249,14 @@ impl<'j> Replay<'j> {
         let entry = &self.job.entries[at];
         let Some(slot) = entry.slot else { return self.send_text(at, listing) };
         let is_sent = entry.parameter.is_none() || self.last_sent[at].is_some();
-        if is_sent && self.stands(at, slot) {
-            return Ok(());
+        match &self.entries[at] {
+            Some(given) if self.scope.is_same_since(given.at, self.read_by(at)) => {
+                if is_sent && self.scope.is_same_since(given.put, &[slot]) {
+                    return Ok(());
+                }
+            }
+            _ => self.renew(at, entry)?,
         }
-        self.renew(at, entry)?;
         let given = self.entries[at].as_mut().expect("it was given just now");
         self.scope.set(slot, &given.value);
         given.put = self.scope.now();
@@ -261,14 +265,6 @@ impl<'j> Replay<'j> {
             self.send_number(at, &value, listing)?;
         }
         Ok(())
-    }
-
-    /// Whether the slot of an entry holds what the entry would give now.
-    fn stands(&self, at: usize, slot: u32) -> bool {
-        self.entries[at].as_ref().is_some_and(|given| {
-            self.scope.is_same_since(given.put, &[slot])
-                && self.scope.is_same_since(given.at, self.read_by(at))
-        })
     }
 
     /// The slots that an entry reads.
@@ -280,7 +276,7 @@ impl<'j> Replay<'j> {
         expr.map_or(&[], Expr::slots)
     }
 
-    /// Evaluates an entry, unless what it gave last still holds.
+    /// Evaluates an entry.
     fn renew(&mut self, at: usize, entry: &Entry) -> Result<(), Fault> {
         let text = self.text(entry);
         let expr = match &mut self.overwritten[at] {
@@ -297,14 +293,11 @@ impl<'j> Replay<'j> {
                 expr.as_ref().expect("compiled just now")
             }
         };
-        let holds = |given: &Given| self.scope.is_same_since(given.at, expr.slots());
-        if !self.entries[at].as_ref().is_some_and(holds) {
-            let value = self
-                .scope
-                .value(expr, &mut self.stack)
-                .map_err(|error| unknown(self.job, &self.scope, text, &error))?;
-            self.entries[at] = Some(Given { at: self.scope.now(), value, put: 0 });
-        }
+        let value = self
+            .scope
+            .value(expr, &mut self.stack)
+            .map_err(|error| unknown(self.job, &self.scope, text, &error))?;
+        self.entries[at] = Some(Given { at: self.scope.now(), value, put: 0 });
         Ok(())
     }
 

@@ -50,8 +50,7 @@ impl Points {
         self.is_inside.len()
     }
 
-    /// The first `count` points on the sphere and their weights, in groups; the last one is filled
-    /// up.
+    /// The points on the sphere and their weights, in groups; the last one is filled up.
     pub(super) fn groups(&self) -> impl Iterator<Item = ([[f64; WIDTH]; 3], [f64; WIDTH])> {
         let [x, y, z] = self.sphere.each_ref().map(|part| part.as_chunks().0);
         x.iter()
