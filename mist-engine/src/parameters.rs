@@ -25,6 +25,11 @@ use shared::Shared;
 
 use crate::Library;
 
+/// Whether the dotted name `lower` is that of something inside of what `upper` names.
+pub(crate) fn is_below(lower: &str, upper: &str) -> bool {
+    lower.strip_prefix(upper).is_some_and(|rest| rest.starts_with('.'))
+}
+
 /// The state of a model's parameters.
 #[derive(Clone, Debug)]
 pub struct Parameters {

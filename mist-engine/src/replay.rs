@@ -6,6 +6,7 @@
 pub(crate) mod alone;
 mod aperture;
 mod due;
+mod sending;
 mod settings;
 
 use std::{collections::BTreeSet, sync::Arc};
@@ -18,7 +19,8 @@ use mist_format::{
     program::Text,
 };
 use scattering::{Mode, Stokes};
-use settings::{Setting, Settings};
+use sending::Sent;
+use settings::Settings;
 
 use crate::{
     Job,
@@ -28,7 +30,7 @@ use crate::{
     quirk::{Quirk, dialect},
     region::Apertures,
     sampling::{Sampling, adaptive::Demand},
-    scope::Scope,
+    scope::{Known, Scope},
     step::{Integral, Listing, Step},
     sweep::{Content, Context, Sweep},
 };
@@ -49,25 +51,11 @@ struct Overwritten {
     expr: Option<Expr>,
 }
 
-/// Something computed from variables, and when; it holds as long as they do not change.
-struct Known<T> {
-    at: u64,
-    value: T,
-}
-
-/// What an entry gave last, and when.
+/// What an entry gave last.
 struct Given {
-    at: u64,
-    value: Value,
+    known: Known<Value>,
     /// When it was put into the slot of the entry.
     put: u64,
-}
-
-/// What an entry sent to the model last.
-struct Sent {
-    text: Arc<str>,
-    /// The bits of the number, if it was one.
-    bits: Option<u64>,
 }
 
 /// A run of the expressions of a job.
@@ -223,8 +211,7 @@ impl<'j> Replay<'j> {
         if goes_on && let Some(sweep) = &mut self.sweep {
             for written in sweep.take_written() {
                 self.entries[written.entry] = None;
-                self.due.add(written.entry);
-                self.due.keep(written.entry, matches!(written.content, Content::Text(_)));
+                self.due.written(written.entry, matches!(written.content, Content::Text(_)));
                 self.overwritten[written.entry] =
                     Some(Overwritten { content: written.content, expr: None });
             }
@@ -250,7 +237,7 @@ impl<'j> Replay<'j> {
         let Some(slot) = entry.slot else { return self.send_text(at, listing) };
         let is_sent = entry.parameter.is_none() || self.last_sent[at].is_some();
         match &self.entries[at] {
-            Some(given) if self.scope.is_same_since(given.at, self.read_by(at)) => {
+            Some(given) if given.known.holds(&self.scope, self.read_by(at)) => {
                 if is_sent && self.scope.is_same_since(given.put, &[slot]) {
                     return Ok(());
                 }
@@ -258,10 +245,10 @@ impl<'j> Replay<'j> {
             _ => self.renew(at, entry)?,
         }
         let given = self.entries[at].as_mut().expect("it was given just now");
-        self.scope.set(slot, &given.value);
+        self.scope.set(slot, &given.known.value);
         given.put = self.scope.now();
         if entry.parameter.is_some() {
-            let value = given.value.clone();
+            let value = given.known.value.clone();
             self.send_number(at, &value, listing)?;
         }
         Ok(())
@@ -282,8 +269,8 @@ impl<'j> Replay<'j> {
         let expr = match &mut self.overwritten[at] {
             None => entry.expr.as_ref().expect("an entry with a slot has an expression"),
             Some(Overwritten { content: Content::Number(x), .. }) => {
-                let (at_now, value) = (self.scope.now(), Value::from(*x));
-                self.entries[at] = Some(Given { at: at_now, value, put: 0 });
+                let known = Known::new(&self.scope, (*x).into());
+                self.entries[at] = Some(Given { known, put: 0 });
                 return Ok(());
             }
             Some(Overwritten { content: Content::Text(written), expr }) => {
@@ -297,106 +284,12 @@ impl<'j> Replay<'j> {
             .scope
             .value(expr, &mut self.stack)
             .map_err(|error| unknown(self.job, &self.scope, text, &error))?;
-        self.entries[at] = Some(Given { at: self.scope.now(), value, put: 0 });
+        self.entries[at] = Some(Given { known: Known::new(&self.scope, value), put: 0 });
         Ok(())
     }
 
     fn text(&self, entry: &Entry) -> &'j Text {
         &self.job.program.variables[entry.variable].value
-    }
-
-    /// Sends the text of an entry to the model, unless the entry sent the same before.
-    fn send_text(&mut self, at: usize, listing: &mut Listing) -> Result<(), Fault> {
-        let number;
-        let text = match &self.overwritten[at] {
-            Some(Overwritten { content: Content::Text(text), .. }) => text,
-            Some(Overwritten { content: Content::Number(x), .. }) => {
-                number = Value::from(*x).to_text();
-                &*number
-            }
-            None => self.text(&self.job.entries[at]).as_str(),
-        };
-        if self.last_sent[at].as_ref().is_some_and(|last| *last.text == *text) {
-            return Ok(());
-        }
-        let text = text.into();
-        self.send(at, Sent { text, bits: None }, listing)
-    }
-
-    /// Sends the value of an entry to the model, unless the entry sent the same before.
-    fn send_number(
-        &mut self,
-        at: usize,
-        value: &Value,
-        listing: &mut Listing,
-    ) -> Result<(), Fault> {
-        let bits = match value.as_slice() {
-            [one] => Some(one.to_bits()),
-            _ => None,
-        };
-        if bits.is_some() && self.last_sent[at].as_ref().is_some_and(|last| last.bits == bits) {
-            return Ok(());
-        }
-        let setting = bits.map(|bits| Setting {
-            entry: at,
-            bits,
-            before: self.parameters.fingerprint(),
-            previous: self.previous.as_ref().map(Parameters::fingerprint),
-        });
-        let known = setting.and_then(|setting| self.known_settings.get(&setting).cloned());
-        let text: Arc<str> =
-            known.as_ref().map_or_else(|| value.to_text().into(), |known| known.text.clone());
-        if self.last_sent[at].as_ref().is_some_and(|last| last.text == text) {
-            return Ok(());
-        }
-        if let Some(known) = known {
-            self.parameters = known.after;
-            listing.push(known.line);
-            self.sent(at, Sent { text, bits });
-            return Ok(());
-        }
-        self.send(at, Sent { text: text.clone(), bits }, listing)?;
-        if let (Some(setting), Some(line)) = (setting, listing.last()) {
-            let (line, after) = (line.clone(), self.parameters.clone());
-            self.known_settings.insert(setting, settings::Known { text, line, after });
-        }
-        Ok(())
-    }
-
-    /// Sends a parameter to the model.
-    fn send(&mut self, at: usize, sent: Sent, listing: &mut Listing) -> Result<(), Fault> {
-        let entry = &self.job.entries[at];
-        let name = entry.parameter.as_deref().expect("only parameters are sent");
-        let (mode, previous) = (self.job.options.mode, self.previous.as_ref());
-        let set = self.parameters.set(name, &sent.text, &self.job.library, mode, previous);
-        set.map_err(|error| {
-            let variable = &self.job.program.variables[entry.variable];
-            let place = if error.is_about_the_name() { &variable.name } else { &variable.value };
-            Box::new(error.diagnostic(place.span()))
-        })?;
-        listing.push(format!("Setting parameter {name} to {}\n", sent.text).into());
-        self.sent(at, sent);
-        Ok(())
-    }
-
-    /// Notes that a parameter is set.
-    fn sent(&mut self, at: usize, sent: Sent) {
-        let name = self.job.entries[at].parameter.as_deref().expect("only parameters are sent");
-        if !Quirk::NoResend.applies_in(self.job.options.mode) {
-            self.forget_below(at, name);
-        }
-        self.last_sent[at] = Some(sent);
-    }
-
-    /// Entries that set a parameter below `name` are sent again: it is a new object now.
-    fn forget_below(&mut self, at: usize, name: &str) {
-        for (other, entry) in self.job.entries.iter().enumerate() {
-            let below = entry.parameter.as_deref().and_then(|p| p.strip_prefix(name));
-            if other != at && below.is_some_and(|rest| rest.starts_with('.')) {
-                self.last_sent[other] = None;
-                self.due.add(other);
-            }
-        }
     }
 
     fn step(&mut self, listing: Listing) -> Result<Step, Fault> {
@@ -456,7 +349,7 @@ impl<'j> Replay<'j> {
             return Ok(Arc::default());
         }
         if let Some(known) = &self.integrals
-            && self.scope.is_same_since(known.at, &self.integrals_read)
+            && known.holds(&self.scope, &self.integrals_read)
             && known.value.iter().all(|one| one.sampling == *sampling && one.demand == demand)
             && self.incident_before == Some(incident)
         {
@@ -468,7 +361,7 @@ impl<'j> Replay<'j> {
         }
         let value = Arc::new(integrals);
         self.incident_before = Some(incident);
-        self.integrals = Some(Known { at: self.scope.now(), value: value.clone() });
+        self.integrals = Some(Known::new(&self.scope, value.clone()));
         Ok(value)
     }
 
@@ -476,12 +369,12 @@ impl<'j> Replay<'j> {
     fn read_values(&mut self) -> Arc<[Option<Value>]> {
         let reads = &self.job.reads;
         if let Some(known) = &self.values
-            && self.scope.is_same_since(known.at, reads)
+            && known.holds(&self.scope, reads)
         {
             return known.value.clone();
         }
         let value: Arc<[_]> = reads.iter().map(|slot| self.scope.get(*slot).cloned()).collect();
-        self.values = Some(Known { at: self.scope.now(), value: value.clone() });
+        self.values = Some(Known::new(&self.scope, value.clone()));
         value
     }
 
@@ -536,7 +429,7 @@ impl<'j> Replay<'j> {
             return Err(missing_required(&job.program, "incidentpol"));
         };
         if let Some(known) = &self.incident
-            && self.scope.is_same_since(known.at, expr.slots())
+            && known.holds(&self.scope, expr.slots())
         {
             return Ok(known.value);
         }
@@ -545,7 +438,7 @@ impl<'j> Replay<'j> {
             .value(expr, &mut self.stack)
             .map_err(|error| unknown(job, &self.scope, text, &error))?;
         let value = stokes(&value, text)?;
-        self.incident = Some(Known { at: self.scope.now(), value });
+        self.incident = Some(Known::new(&self.scope, value));
         Ok(value)
     }
 
@@ -558,14 +451,13 @@ impl<'j> Replay<'j> {
         let plan = &self.job.integrals[number];
         let mut aperture = Aperture::under(incident);
         for (setting, known) in plan.settings.iter().zip(&mut self.settings[number]) {
-            let is_same =
-                |known: &Known<Value>| self.scope.is_same_since(known.at, setting.expr.slots());
-            if !known.as_ref().is_some_and(is_same) {
+            let holds = |known: &Known<Value>| known.holds(&self.scope, setting.expr.slots());
+            if !known.as_ref().is_some_and(holds) {
                 let value = self
                     .scope
                     .value(&setting.expr, &mut self.stack)
                     .map_err(|error| unknown(self.job, &self.scope, &setting.text, &error))?;
-                *known = Some(Known { at: self.scope.now(), value });
+                *known = Some(Known::new(&self.scope, value));
             }
             let value = &known.as_ref().expect("known by now").value;
             aperture.set(setting.key, value, &setting.text)?;

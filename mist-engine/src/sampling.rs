@@ -12,7 +12,7 @@ use std::{
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use scattering::Direction;
+use scattering::{Direction, geometry::is_above};
 
 use crate::region::{Apertures, Frame, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
@@ -250,11 +250,7 @@ impl Plan {
         self.pattern.for_each(range, |run| self.push(run, &mut points));
         points.lift(self.projection, &self.frame);
         points.filter_map(|point| self.kept(point));
-        let mut chunk = Chunk::of(&points, &self.turn);
-        if self.apertures == Apertures::Exact {
-            chunk.keep_above();
-        }
-        chunk
+        Chunk::of(&points, &self.turn)
     }
 
     /// Adds the points of `run`, unless none of them belongs to the region.
@@ -283,7 +279,11 @@ impl Plan {
             (point.v, point.weight) = (self.frame.turn(u.to_array()).into(), weight);
         }
         let v = point.v;
-        let belongs = v.z > 0.0
+        let is_above = match self.apertures {
+            Apertures::Nist => v.z > 0.0,
+            Apertures::Exact => is_above(v.z),
+        };
+        let belongs = is_above
             && (point.is_inside
                 || match &self.inside {
                     Inside::Cone => true,

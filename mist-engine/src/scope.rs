@@ -63,9 +63,7 @@ impl Scope {
     }
 
     pub(crate) fn set(&mut self, slot: u32, value: &Value) {
-        if !same(self.get(slot), Some(value)) {
-            self.replace(slot, Some(value.clone()));
-        }
+        self.put(slot, Some(value));
     }
 
     pub(crate) fn put(&mut self, slot: u32, value: Option<&Value>) {
@@ -119,6 +117,24 @@ impl Scope {
     /// Slots that hold a value.
     pub(crate) fn defined(&self) -> impl Iterator<Item = u32> {
         (0..).zip(&self.values).filter(|(_, value)| value.is_some()).map(|(slot, _)| slot)
+    }
+}
+
+/// Something computed from variables, and when; it holds as long as they do not change.
+pub(crate) struct Known<T> {
+    at: u64,
+    pub(crate) value: T,
+}
+
+impl<T> Known<T> {
+    /// `value`, computed just now.
+    pub(crate) fn new(scope: &Scope, value: T) -> Self {
+        Self { at: scope.now(), value }
+    }
+
+    /// Whether what it was computed from, the slots `read`, is as it was.
+    pub(crate) fn holds(&self, scope: &Scope, read: &[u32]) -> bool {
+        scope.is_same_since(self.at, read)
     }
 }
 

@@ -84,6 +84,11 @@ impl Angle {
     }
 }
 
+/// Whether the polar angle that follows from this cosine is less than π/2.
+pub fn is_above(cos: f64) -> bool {
+    Angle::FOLLOWS.is_above(cos)
+}
+
 /// An incident beam and the orientation of the sample: what a batch of directions shares.
 #[derive(Clone, Copy, Debug)]
 pub struct Incidence {

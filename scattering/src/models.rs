@@ -17,6 +17,7 @@ pub mod grating;
 pub mod instrument;
 pub mod particle;
 pub mod roughness;
+mod several;
 pub mod sum;
 
 /// A prepared model of scattering from a surface.

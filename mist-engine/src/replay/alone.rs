@@ -10,7 +10,7 @@ use mist_format::{expr::Expr, number::whole_number};
 
 use crate::{
     Job,
-    parameters::Parameters,
+    parameters::{Parameters, is_below},
     quirk::dialect,
     sweep::{ListPlan, LoopPlan},
 };
@@ -108,9 +108,6 @@ fn reads_nothing(plan: &ListPlan, job: &Job) -> bool {
 /// below it is set.
 fn is_last(parameter: (usize, &str), sent: &[(usize, &str)]) -> bool {
     let (at, name) = parameter;
-    let is_below = |lower: &str, upper: &str| {
-        lower.strip_prefix(upper).is_some_and(|rest| rest.starts_with('.'))
-    };
     sent.iter().filter(|(other, _)| *other != at).all(|(other, other_name)| {
         let below_it = *other_name == name || is_below(other_name, name);
         !below_it && (!is_below(name, other_name) || *other < at)

@@ -37,10 +37,11 @@ impl Due {
         self.entries[at] = true;
     }
 
-    /// The entry `at` has to be evaluated in every step, or in those that concern it.
-    pub(super) fn keep(&mut self, at: usize, always: bool) {
-        self.always[at] = always;
-        self.entries[at] |= always;
+    /// A loop has written the entry `at`: it has to be evaluated, and in every step if it is an
+    /// expression now.
+    pub(super) fn written(&mut self, at: usize, is_expression: bool) {
+        self.entries[at] = true;
+        self.always[at] = is_expression;
     }
 
     /// Adds the entries that are concerned by what has changed in `scope`.

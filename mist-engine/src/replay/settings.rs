@@ -22,7 +22,7 @@ pub(super) struct Setting {
 
 /// What came out.
 #[derive(Clone)]
-pub(super) struct Known {
+pub(super) struct Outcome {
     /// The number as it was sent.
     pub(super) text: Arc<str>,
     /// What the listing says of it.
@@ -32,17 +32,17 @@ pub(super) struct Known {
 
 /// The settings of a replay.
 #[derive(Default)]
-pub(super) struct Settings(Map<Setting, Known>);
+pub(super) struct Settings(Map<Setting, Outcome>);
 
 impl Settings {
-    pub(super) fn get(&self, setting: &Setting) -> Option<&Known> {
+    pub(super) fn get(&self, setting: &Setting) -> Option<&Outcome> {
         self.0.get(setting)
     }
 
-    pub(super) fn insert(&mut self, setting: Setting, known: Known) {
+    pub(super) fn insert(&mut self, setting: Setting, outcome: Outcome) {
         if self.0.len() == KEPT {
             self.0.clear();
         }
-        self.0.insert(setting, known);
+        self.0.insert(setting, outcome);
     }
 }

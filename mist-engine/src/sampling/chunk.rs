@@ -56,16 +56,6 @@ impl Chunk {
         with_widest(Filling { chunk: &mut chunk, points, turn });
         chunk
     }
-
-    /// Leaves out directions that are not above the horizon by their cosine.
-    pub(super) fn keep_above(&mut self) {
-        let is_above = |direction: &Direction| direction.is_above();
-        if !self.directions.iter().all(is_above) {
-            let mut keep = self.directions.iter().map(is_above);
-            self.weights.retain(|_| keep.next().expect("a weight has a direction"));
-            self.directions.retain(is_above);
-        }
-    }
 }
 
 /// The making of a chunk.

@@ -16,6 +16,7 @@ use super::{Content, Context, Written};
 use crate::{
     fault::{Fault, placed},
     quirk::Quirk,
+    scope::Known,
     step::Cell,
 };
 
@@ -43,13 +44,13 @@ pub(crate) struct ForState {
     at: usize,
     cell: Cell,
     /// What was made of the first values: a loop that is started again mostly has the same ones.
-    known: Vec<Known>,
+    made: Vec<Made>,
     bounds: Bounds,
 }
 
 /// What is made of a value.
 #[derive(Clone)]
-struct Known {
+struct Made {
     /// Of the value.
     bits: u64,
     /// What is written into the entry.
@@ -58,33 +59,32 @@ struct Known {
     cell: Cell,
 }
 
-/// What the expressions of a, b and s gave last, and when; they are evaluated again when a
-/// variable in them has changed.
+/// What the expressions of a, b and s gave last.
 #[derive(Default)]
 struct Bounds {
-    from: Option<(u64, f64)>,
-    to: Option<(u64, f64)>,
-    by: Option<(u64, f64)>,
+    from: Option<Known<f64>>,
+    to: Option<Known<f64>>,
+    by: Option<Known<f64>>,
 }
 
 /// Values of which a loop keeps what was made.
 const KEPT: usize = 1 << 12;
 
 fn bound(
-    known: &mut Option<(u64, f64)>,
+    known: &mut Option<Known<f64>>,
     (text, expr): (&Text, &Expr),
     context: &mut Context<'_>,
 ) -> Result<f64, Fault> {
-    if let Some((at, value)) = known
-        && context.scope.is_same_since(*at, expr.slots())
+    if let Some(known) = known
+        && known.holds(context.scope, expr.slots())
     {
-        return Ok(*value);
+        return Ok(known.value);
     }
     let value = context.scope.number(expr, context.stack).map_err(|error| {
         let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
         placed(text, error.diagnostic(known))
     })?;
-    *known = Some((context.scope.now(), value));
+    *known = Some(Known::new(context.scope, value));
     Ok(value)
 }
 
@@ -99,7 +99,7 @@ impl ForState {
             fraction: 0.0,
             at: 0,
             cell: Cell::Text("".into()),
-            known: Vec::new(),
+            made: Vec::new(),
             bounds: Bounds::default(),
         };
         state.restart(plan, context, written)?;
@@ -167,12 +167,12 @@ impl ForState {
 
     fn write(&mut self, plan: &ForPlan, written: &mut Vec<Written>) {
         let bits = self.value.to_bits();
-        let known = self.known.get(self.at).filter(|known| known.bits == bits).cloned();
-        let made = known.unwrap_or_else(|| {
-            let made = Known::of(self.value, plan.is_text);
-            match self.known.get_mut(self.at) {
-                Some(known) => *known = made.clone(),
-                None if self.at < KEPT => self.known.push(made.clone()),
+        let before = self.made.get(self.at).filter(|made| made.bits == bits).cloned();
+        let made = before.unwrap_or_else(|| {
+            let made = Made::of(self.value, plan.is_text);
+            match self.made.get_mut(self.at) {
+                Some(before) => *before = made.clone(),
+                None if self.at < KEPT => self.made.push(made.clone()),
                 None => {}
             }
             made
@@ -182,7 +182,7 @@ impl ForState {
     }
 }
 
-impl Known {
+impl Made {
     fn of(value: f64, is_text: bool) -> Self {
         let number = if is_text { None } else { number::reread(value) };
         let text = || Arc::<str>::from(number::loop_text(value));

@@ -18,8 +18,11 @@ use num_complex::Complex64;
 use crate::{
     Direction, Incidence, Jones, Mueller, Node, ParamError,
     geometry::Outgoing,
-    lanes::{Batch, Real, Vectors, WIDTH, with_widest},
-    models::{Brdf, Common},
+    lanes::{Real, Vectors, WIDTH},
+    models::{
+        Brdf, Common,
+        several::{Several, matrices},
+    },
     optics::{
         film::{Fields, Films, Wave, decaying_root},
         first_order::{Drive, FirstOrder},
@@ -147,30 +150,35 @@ impl SmallSphere {
     }
 }
 
-/// The matrices of several directions.
-struct Matrices<'a> {
+/// The sphere under a beam.
+struct Lit<'a> {
     sphere: &'a SmallSphere,
-    drive: &'a Drive,
-    directions: &'a [[Direction; WIDTH]],
-    out: &'a mut [[Mueller; WIDTH]],
+    drive: Drive,
 }
 
-impl Batch for Matrices<'_> {
+impl Several for Lit<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
-        let Self { sphere, drive, .. } = self;
-        for (directions, out) in self.directions.iter().zip(self.out) {
-            let Some(kappa_squared) = sphere.clear(directions) else {
-                *out = directions.each_ref().map(|to| sphere.amplitude(drive, to).mueller());
-                continue;
-            };
-            let (from, _) = sphere.stack.kappa_out(&directions[0]);
-            let kappa_squared = vectors.load(&kappa_squared);
-            let seen = sphere.stack.films().clear_fields(from, kappa_squared, sphere.depth);
-            let to = Outgoing::several(vectors, directions);
-            let jones = sphere.stack.elements(drive, seen, &to);
-            muellers(vectors, jones, kappa_squared.all(1.0), out);
-        }
+    fn several<V: Vectors>(
+        &self,
+        vectors: V,
+        directions: &[Direction; WIDTH],
+        out: &mut [Mueller; WIDTH],
+    ) {
+        let Self { sphere, drive } = self;
+        let Some(kappa_squared) = sphere.clear(directions) else {
+            *out = directions.each_ref().map(|to| self.one(to));
+            return;
+        };
+        let (from, _) = sphere.stack.kappa_out(&directions[0]);
+        let kappa_squared = vectors.load(&kappa_squared);
+        let seen = sphere.stack.films().clear_fields(from, kappa_squared, sphere.depth);
+        let to = Outgoing::several(vectors, directions);
+        let jones = sphere.stack.elements(drive, seen, &to);
+        muellers(vectors, jones, kappa_squared.all(1.0), out);
+    }
+
+    fn one(&self, direction: &Direction) -> Mueller {
+        self.sphere.amplitude(&self.drive, direction).mueller()
     }
 }
 
@@ -200,12 +208,8 @@ impl Brdf for SmallSphere {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        let drive = self.drive(incidence);
-        let ((directions, rest), (out, left)) = (directions.as_chunks(), out.as_chunks_mut());
-        with_widest(Matrices { sphere: self, drive: &drive, directions, out });
-        for (m, direction) in left.iter_mut().zip(rest) {
-            *m = self.amplitude(&drive, direction).mueller();
-        }
+        let lit = Lit { sphere: self, drive: self.drive(incidence) };
+        matrices(&lit, directions, out);
     }
 
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {

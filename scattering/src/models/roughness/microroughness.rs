@@ -40,8 +40,11 @@ use super::{ROUGHNESS, Rough};
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Side,
     geometry::Outgoing,
-    lanes::{Batch, Complex, Real, Vectors, WIDTH, with_widest},
-    models::{Brdf, COMMON, Common},
+    lanes::{Complex, Real, Vectors, WIDTH},
+    models::{
+        Brdf, COMMON, Common,
+        several::{Several, matrices},
+    },
     optics::film::{decaying_root, root},
     polarization::muellers,
     spec::{Class, Laws, Spec},
@@ -100,25 +103,31 @@ struct Beam {
     p: Complex64,
 }
 
-/// The matrices of several directions.
-struct Matrices<'a> {
+/// The surface under a beam.
+struct Lit<'a> {
     surface: &'a Microroughness,
-    beam: &'a Beam,
+    beam: Beam,
     incidence: &'a Incidence,
-    directions: &'a [[Direction; WIDTH]],
-    out: &'a mut [[Mueller; WIDTH]],
 }
 
-impl Batch for Matrices<'_> {
+impl Several for Lit<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
-        let Self { surface, beam, incidence, .. } = self;
-        for (directions, out) in self.directions.iter().zip(self.out) {
-            let to = Outgoing::several(vectors, directions);
-            let jones = surface.elements(beam, incidence, &to);
-            let density = |to| surface.rough.density(incidence, to);
-            muellers(vectors, jones, vectors.load(&directions.each_ref().map(density)), out);
-        }
+    fn several<V: Vectors>(
+        &self,
+        vectors: V,
+        directions: &[Direction; WIDTH],
+        out: &mut [Mueller; WIDTH],
+    ) {
+        let Self { surface, beam, incidence } = self;
+        let to = Outgoing::several(vectors, directions);
+        let jones = surface.elements(beam, incidence, &to);
+        let density = |to| surface.rough.density(incidence, to);
+        muellers(vectors, jones, vectors.load(&directions.each_ref().map(density)), out);
+    }
+
+    fn one(&self, direction: &Direction) -> Mueller {
+        let jones = self.surface.amplitude(&self.beam, self.incidence, direction);
+        jones.mueller() * self.surface.rough.density(self.incidence, direction)
     }
 }
 
@@ -216,13 +225,8 @@ impl Brdf for Microroughness {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        let beam = self.beam(incidence);
-        let ((directions, rest), (out, left)) = (directions.as_chunks(), out.as_chunks_mut());
-        with_widest(Matrices { surface: self, beam: &beam, incidence, directions, out });
-        for (m, direction) in left.iter_mut().zip(rest) {
-            let jones = self.amplitude(&beam, incidence, direction);
-            *m = jones.mueller() * self.rough.density(incidence, direction);
-        }
+        let lit = Lit { surface: self, beam: self.beam(incidence), incidence };
+        matrices(&lit, directions, out);
     }
 
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
