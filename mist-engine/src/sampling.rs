@@ -29,9 +29,9 @@ pub(crate) use chunk::{Chunk, Weight};
 pub use key::LayoutKey;
 
 use chunk::seen;
-use pattern::{Pattern, Run};
-use points::{Lifted, Points};
-use projection::{DELICATE, Projection};
+use pattern::Pattern;
+use points::Lifted;
+use projection::Projection;
 use turn::Turn;
 
 /// What a program says about the sampling of its integrals.
@@ -76,8 +76,6 @@ pub(crate) enum Scale {
 #[derive(Clone, Debug)]
 struct Plan {
     pattern: Pattern,
-    /// No point of the plane is farther from its origin.
-    radius: f64,
     projection: Projection,
     frame: Frame,
     inside: Inside,
@@ -212,14 +210,17 @@ impl Plan {
         } else {
             Scale::Fixed(projection.area_per_area() * pattern.area_per_point())
         };
+        let inside = match inside {
+            Inside::Polygon(polygon) => Inside::Polygon(polygon.for_points(pattern.points())),
+            other => other,
+        };
         let frame = Frame::new(region.cone().axis);
-        Ok(Self { pattern, radius, projection, frame, inside, turn, scale, apertures })
+        Ok(Self { pattern, projection, frame, inside, turn, scale, apertures })
     }
 
     fn single(direction: Direction) -> Self {
         Self {
             pattern: Pattern::One,
-            radius: 0.0,
             projection: Projection::EqualArea,
             frame: Frame::new((0.0, 0.0)),
             inside: Inside::One(direction),
@@ -246,29 +247,10 @@ impl Plan {
             return if direction.is_above() { Chunk::one(direction) } else { Chunk::default() };
         }
         let range = k * CHUNK..self.points().min((k + 1) * CHUNK);
-        let mut points = Points::with_capacity((range.end - range.start) as usize);
-        self.pattern.for_each(range, |run| self.push(run, &mut points));
+        let mut points = self.pattern.part(range);
         points.lift(self.projection, &self.frame);
         points.filter_map(|point| self.kept(point));
         Chunk::of(&points, &self.turn)
-    }
-
-    /// Adds the points of `run`, unless none of them belongs to the region.
-    #[inline]
-    fn push(&self, run: &Run, points: &mut Points) {
-        let known = run.extent().and_then(|(middle, reach)| self.alike(middle, reach));
-        if known != Some(false) {
-            points.push(run.x, run.ys(), known.is_some());
-        }
-    }
-
-    /// Whether all points of the plane closer to `middle` than `reach` lie in the polygon that the
-    /// region is, or none above the horizon does; nothing where that is not known.
-    fn alike(&self, middle: DVec2, reach: f64) -> Option<bool> {
-        let Inside::Polygon(polygon) = &self.inside else { return None };
-        let reach = reach * self.projection.longest(self.radius) + DELICATE;
-        let [x, y, z] = self.frame.turn(self.projection.lift(middle.x, middle.y).0);
-        if z < -reach { Some(false) } else { polygon.alike(DVec2::new(x, y), reach) }
     }
 
     /// `point` with its weight times cos θ, if it belongs to the region.
@@ -284,13 +266,14 @@ impl Plan {
             Apertures::Exact => is_above(v.z),
         };
         let belongs = is_above
-            && (point.is_inside
-                || match &self.inside {
-                    Inside::Cone => true,
-                    Inside::Polygon(polygon) => polygon.contains(projected(v)),
-                    Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
-                    Inside::One(_) => false,
-                });
+            && match &self.inside {
+                Inside::Cone => true,
+                Inside::Polygon(polygon) => {
+                    polygon.know(v.truncate()).unwrap_or_else(|| polygon.contains(projected(v)))
+                }
+                Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
+                Inside::One(_) => false,
+            };
         point.weight *= v.z;
         belongs.then_some(point)
     }

@@ -4,9 +4,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use glam::DVec2;
-
-use super::{Sampling, truncated};
+use super::{Sampling, points::Points, truncated};
 
 /// Where the points of a disk lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,10 +48,11 @@ impl Pattern {
         }
     }
 
-    /// Visits the points of the disk with numbers in `range`, in order.
-    pub(super) fn for_each(&self, range: Range<u64>, mut visit: impl FnMut(&Run)) {
+    /// The points of the disk with numbers in `range`, in order.
+    pub(super) fn part(&self, range: Range<u64>) -> Points {
+        let mut points = Points::with_capacity((range.end - range.start) as usize);
         match *self {
-            Self::One => visit(&Run::of(0.0, 0.0)),
+            Self::One => points.push(0.0, [0.0]),
             Self::Grid { step, most, radius } => {
                 let (side, end) = (2 * most + 1, range.end.cast_signed());
                 let mut next = range.start.cast_signed();
@@ -62,70 +61,37 @@ impl Pattern {
                     let last = most.min(first + (end - next) - 1);
                     next += last - first + 1;
                     let x = i as f64 * step;
-                    let mut run = Run::at(x);
-                    for y in (first..=last).map(|j| j as f64 * step) {
-                        if x * x + y * y <= radius * radius {
-                            run.push(y);
-                            if run.count == LONGEST {
-                                visit(&run);
-                                run.count = 0;
-                            }
-                        }
-                    }
-                    if run.count > 0 {
-                        visit(&run);
-                    }
+                    let reach = reach(x, step, most, radius);
+                    let column = first.max(-reach)..last.min(reach) + 1;
+                    points.push(x, column.map(|j| j as f64 * step));
                 }
             }
             Self::Random { seed, radius, .. } => {
                 for number in range {
                     let (x, y) = in_disk(seed, number, radius);
-                    visit(&Run::of(x, y));
+                    points.push(x, [y]);
                 }
             }
         }
+        points
     }
 }
 
-/// Neighbours of one column of a grid, about which much can be said at once; or a random point.
-pub(super) struct Run {
-    pub(super) x: f64,
-    ys: [f64; LONGEST],
-    count: usize,
-}
-
-/// Points of a run, at most.
-const LONGEST: usize = 8;
-
-impl Run {
-    /// No point yet of the column at x.
-    fn at(x: f64) -> Self {
-        Self { x, ys: [0.0; LONGEST], count: 0 }
+/// The largest j ≤ `most` for which (x, j `step`) lies in the disk, rim included; −1 if none does.
+fn reach(x: f64, step: f64, most: i64, radius: f64) -> i64 {
+    let is_in_disk = |j: i64| {
+        let y = j as f64 * step;
+        x * x + y * y <= radius * radius
+    };
+    // The root may be off by its rounding.
+    let mut reach = (((radius * radius - x * x).max(0.0).sqrt() / step) as i64).clamp(0, most);
+    while reach >= 0 && !is_in_disk(reach) {
+        reach -= 1;
     }
-
-    /// One point.
-    fn of(x: f64, y: f64) -> Self {
-        let mut run = Self::at(x);
-        run.push(y);
-        run
+    while reach < most && is_in_disk(reach + 1) {
+        reach += 1;
     }
-
-    fn push(&mut self, y: f64) {
-        self.ys[self.count] = y;
-        self.count += 1;
-    }
-
-    /// The y of the points.
-    pub(super) fn ys(&self) -> &[f64] {
-        &self.ys[..self.count]
-    }
-
-    /// The middle of the points and the distance to the farthest of them; nothing for so few that
-    /// it is not worth a look.
-    pub(super) fn extent(&self) -> Option<(DVec2, f64)> {
-        let [first, _, .., last] = self.ys() else { return None };
-        Some((DVec2::new(self.x, 0.5 * (first + last)), 0.5 * (last - first)))
-    }
+    reach
 }
 
 /// The random point with this number, uniform in the open disk.
@@ -168,13 +134,9 @@ mod tests {
     use super::*;
 
     fn all(pattern: Pattern, chunk: u64) -> Vec<(f64, f64)> {
-        let (mut points, n) = (Vec::new(), pattern.points());
-        for start in (0..n).step_by(chunk as usize) {
-            pattern.for_each(start..n.min(start + chunk), |run| {
-                points.extend(run.ys().iter().map(|y| (run.x, *y)));
-            });
-        }
-        points
+        let n = pattern.points();
+        let part = |start| pattern.part(start..n.min(start + chunk)).of_plane().collect::<Vec<_>>();
+        (0..n).step_by(chunk as usize).flat_map(part).collect()
     }
 
     #[test]
@@ -192,6 +154,24 @@ mod tests {
         let points = all(Pattern::Grid { step: 0.5, most: 2, radius: 1.0 }, 512);
         assert_eq!(points.len(), 13);
         assert_eq!(points[..3], [(-1.0, 0.0), (-0.5, -0.5), (-0.5, 0.0)]);
+    }
+
+    #[test]
+    fn columns_end_where_the_disk_ends_whatever_the_rounding() {
+        for k in 0..400 {
+            let (step, radius) = (0.01 + 1e-3 * f64::from(k % 7), 0.05 * f64::from(k));
+            let most = (2.0 * radius / step + 0.5) as i64 / 2;
+            for i in -most..=most {
+                let x = i as f64 * step;
+                let is_in_disk = |j: &i64| {
+                    let y = *j as f64 * step;
+                    x * x + y * y <= radius * radius
+                };
+                let want = (0..=most).take_while(is_in_disk).count() as i64 - 1;
+                assert_eq!(reach(x, step, most, radius), want, "{x} {step} {radius}");
+            }
+        }
+        assert_eq!(reach(0.0, 0.1, 10, f64::NAN), -1);
     }
 
     #[test]

@@ -9,10 +9,9 @@ use crate::region::Frame;
 
 /// Points in order.
 pub(super) struct Points {
+    count: usize,
     /// x and y in the plane.
     plane: [Vec<f64>; 2],
-    /// Whether they are known to lie in the region, if above the horizon.
-    is_inside: Vec<bool>,
     /// x, y and z on the sphere.
     sphere: [Vec<f64>; 3],
     weights: Vec<f64>,
@@ -21,7 +20,6 @@ pub(super) struct Points {
 /// A point on the sphere.
 pub(super) struct Lifted {
     pub(super) plane: DVec2,
-    pub(super) is_inside: bool,
     pub(super) v: DVec3,
     /// What makes up for the projection; later times cos θ.
     pub(super) weight: f64,
@@ -32,22 +30,29 @@ impl Points {
     pub(super) fn with_capacity(count: usize) -> Self {
         let room = || Vec::with_capacity(count.next_multiple_of(WIDTH));
         Self {
+            count: 0,
             plane: [room(), room()],
-            is_inside: Vec::with_capacity(count),
             sphere: [room(), room(), room()],
             weights: room(),
         }
     }
 
     /// Adds points of the plane with one x.
-    pub(super) fn push(&mut self, x: f64, ys: &[f64], is_inside: bool) {
-        self.plane[0].extend(ys.iter().map(|_| x));
-        self.plane[1].extend(ys);
-        self.is_inside.extend(ys.iter().map(|_| is_inside));
+    pub(super) fn push(&mut self, x: f64, ys: impl IntoIterator<Item = f64>) {
+        let [all_x, all_y] = &mut self.plane;
+        all_y.extend(ys);
+        all_x.resize(all_y.len(), x);
+        self.count = all_y.len();
+    }
+
+    /// x and y of the points in the plane.
+    #[cfg(test)]
+    pub(super) fn of_plane(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.plane[0].iter().copied().zip(self.plane[1].iter().copied())
     }
 
     pub(super) fn count(&self) -> usize {
-        self.is_inside.len()
+        self.count
     }
 
     /// The points on the sphere and their weights, in groups; the last one is filled up.
@@ -74,7 +79,6 @@ impl Points {
         for k in 0..self.count() {
             let lifted = Lifted {
                 plane: DVec2::new(self.plane[0][k], self.plane[1][k]),
-                is_inside: self.is_inside[k],
                 v: DVec3::new(self.sphere[0][k], self.sphere[1][k], self.sphere[2][k]),
                 weight: self.weights[k],
             };
@@ -84,7 +88,7 @@ impl Points {
                 kept += 1;
             }
         }
-        self.is_inside.truncate(kept);
+        self.count = kept;
         let whole = kept.next_multiple_of(WIDTH);
         let parts = self.plane.iter_mut().chain(&mut self.sphere).chain([&mut self.weights]);
         parts.for_each(|part| part.truncate(whole));

@@ -1,7 +1,5 @@
 //! Projections of a disk onto a cone around the normal.
 
-use std::f64::consts::SQRT_2;
-
 use glam::{DVec2, DVec3};
 use scattering::lanes::Real;
 
@@ -42,16 +40,6 @@ impl Projection {
             Self::Equidistant => alpha,
             Self::EqualArea => (1.0 - alpha.cos()).sqrt(),
             Self::Orthographic => alpha.sin(),
-        }
-    }
-
-    /// How much longer than a way in the disk with this radius the way on the sphere is, at most.
-    pub(super) fn longest(self, radius: f64) -> f64 {
-        match self {
-            Self::Equidistant => 1.0,
-            // dt/dρ; across it is sin t/ρ = √(2 − ρ²).
-            Self::EqualArea => (2.0 / (2.0 - radius * radius).max(0.0).sqrt()).max(SQRT_2),
-            Self::Orthographic => 1.0 / (1.0 - radius * radius).max(0.0).sqrt(),
         }
     }
 

@@ -11,7 +11,7 @@ use super::Edge;
 
 /// Closer to an edge than this the edge itself decides; far more than rounding, far less than a
 /// band is high.
-const MARGIN: f64 = 1e-9;
+pub(super) const MARGIN: f64 = 1e-9;
 
 /// An edge whose two ends lie on the same side of a point in x is never counted, so leaving it
 /// out changes no decision.
@@ -38,9 +38,9 @@ struct Slab {
 
 /// Where edges run, from below to above.
 #[derive(Clone, Copy, Debug)]
-struct Band {
-    from: f64,
-    to: f64,
+pub(super) struct Band {
+    pub(super) from: f64,
+    pub(super) to: f64,
     /// Whether points between this band and the one below are inside.
     below: bool,
 }
@@ -134,41 +134,24 @@ impl Slabs {
             return false;
         }
         let slab = &self.slabs[self.index(p.x, self.slabs.len())];
-        self.between_bands(slab, [p.y; 2]).unwrap_or_else(|| {
+        self.between_bands(slab, p.y).unwrap_or_else(|| {
             let [first, last] = slab.edges.map(|at| at as usize);
             counted(&self.edges[first..last], p)
         })
     }
 
-    /// Whether all points closer to `p` than `reach` are inside, or all outside; nothing where
-    /// that is not known.
-    pub(super) fn alike(&self, p: DVec2, reach: f64) -> Option<bool> {
-        let (left, right) = (p.x - reach, p.x + reach);
-        let is_beside = !(self.low <= left && right <= self.high);
-        if self.slabs.is_empty() || left > self.high || right < self.low {
-            return Some(false);
-        }
-        let [first, last] = [left, right].map(|x| self.index(x, self.slabs.len()));
-        let mut states = self.slabs[first..=last]
-            .iter()
-            .map(|slab| self.between_bands(slab, [p.y - reach, p.y + reach]));
-        let state = states.next()??;
-        let are_equal = states.all(|other| other == Some(state)) && !(is_beside && state);
-        are_equal.then_some(state)
-    }
-
-    /// Whether the points of `slab` from one y to another are inside, if no edge needs to be asked.
+    /// Whether the point of `slab` at `y` is inside, if no edge needs to be asked.
     #[inline]
-    fn between_bands(&self, slab: &Slab, [from, to]: [f64; 2]) -> Option<bool> {
-        if !(from > slab.turn) {
+    fn between_bands(&self, slab: &Slab, y: f64) -> Option<bool> {
+        if !(y > slab.turn) {
             return None;
         }
         let [first, last] = slab.bands.map(|at| at as usize);
         for band in &self.bands[first..last] {
-            if to < band.from {
+            if y < band.from {
                 return Some(band.below);
             }
-            if from <= band.to {
+            if y <= band.to {
                 return None;
             }
         }
@@ -182,7 +165,7 @@ fn counted(edges: &[Edge], p: DVec2) -> bool {
 }
 
 /// The vertices whose neighbours lie on the same side of them, or above or below.
-fn turns(edges: &[Edge]) -> impl Iterator<Item = DVec2> + '_ {
+pub(super) fn turns(edges: &[Edge]) -> impl Iterator<Item = DVec2> + '_ {
     let next = edges.iter().cycle().skip(1);
     edges.iter().zip(next).filter_map(|(edge, next)| {
         let (before, behind) = (edge.b.x - edge.a.x, next.b.x - next.a.x);
@@ -192,7 +175,7 @@ fn turns(edges: &[Edge]) -> impl Iterator<Item = DVec2> + '_ {
 
 impl Edge {
     /// Where it runs between the abscissas `left` and `right`, if it does.
-    fn band(&self, left: f64, right: f64) -> Option<Band> {
+    pub(super) fn band(&self, left: f64, right: f64) -> Option<Band> {
         let Self { a, b } = self;
         let (from, to) = (left.max(a.x.min(b.x)), right.min(a.x.max(b.x)));
         if from > to {
