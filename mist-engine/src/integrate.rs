@@ -12,14 +12,11 @@ use scattering::{Basis, Direction, Incidence, Model, Mueller, Stokes};
 use crate::{
     region::Region,
     sampling::{
-        Layout, Scale, Weight,
+        Chunk, Layout, Scale, Scratch,
         adaptive::{self, Demand},
     },
     sum,
 };
-
-/// Directions that are evaluated at a time; their matrices stay in the fastest cache.
-const BATCH: usize = 128;
 
 /// The Mueller integral of `model` over `layout`, or nothing if `stop` ends it.
 ///
@@ -43,22 +40,13 @@ pub(crate) fn integrate_counting(
     layout: &Layout,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<(Mueller, u64)> {
-    let flip = sign(model);
-    let total = |k| {
-        layout.with_chunk(k, |chunk| {
-            let mut total = Total::default();
-            let mut all = [Mueller::ZERO; BATCH];
-            let batches = chunk.directions.chunks(BATCH).zip(chunk.weights.chunks(BATCH));
-            for (directions, weights) in batches {
-                let matrices = &mut all[..directions.len()];
-                model.evaluate(incidence, directions, basis, matrices);
-                for (m, weight) in matrices.iter().zip(weights) {
-                    total.add(m, weight, flip);
-                }
-            }
-            total.count = chunk.directions.len() as u64;
-            total
-        })
+    let total = |scratch: &mut Scratch, k| {
+        let Chunk { directions, weights } = layout.chunk(k, scratch);
+        Total {
+            matrix: model.sum(incidence, directions, weights, basis),
+            weight: weights.weight.iter().sum(),
+            count: directions.len() as u64,
+        }
     };
     let sum = sum::ordered(layout.chunks(), stop, total)?;
     let integral = match layout.scale() {
@@ -106,16 +94,16 @@ pub fn samples(
     if layout.is_single_direction() && below_horizon {
         return;
     }
-    let flip = sign(model);
+    let mut scratch = Scratch::default();
     for k in 0..layout.chunks() {
-        layout.with_chunk(k, |chunk| {
-            let mut matrices = vec![Mueller::ZERO; chunk.directions.len()];
-            model.evaluate(incidence, &chunk.directions, basis, &mut matrices);
-            for ((m, d), weight) in matrices.iter().zip(&chunk.directions).zip(&chunk.weights) {
-                let brdf = turned(pol, weight, flip).dot(&(*m * *inpol));
-                visit(Sample { theta: d.theta(), phi: d.phi(), brdf });
-            }
-        });
+        let Chunk { directions, weights } = layout.chunk(k, &mut scratch);
+        let mut matrices = vec![Mueller::ZERO; directions.len()];
+        model.evaluate(incidence, directions, basis, &mut matrices);
+        for (at, (m, d)) in matrices.iter().zip(directions).enumerate() {
+            let (cos2b, sin2b) = (weights.cos2b[at], model.turn() * weights.sin2b[at]);
+            let brdf = turned(pol, cos2b, sin2b).dot(&(*m * *inpol));
+            visit(Sample { theta: d.theta(), phi: d.phi(), brdf });
+        }
     }
 }
 
@@ -137,16 +125,10 @@ pub(crate) fn adaptive_samples(
     let _ = adaptive::nodes(model, incidence, basis, region, demand, show);
 }
 
-/// −1 for models whose light leaves downwards, where the aperture turns the other way.
-fn sign(model: &Model) -> f64 {
-    if model.common().side.to_below() { -1.0 } else { 1.0 }
-}
-
-/// The sensitivity for one direction: S(β).
-fn turned(s: &Stokes, weight: &Weight, flip: f64) -> Stokes {
-    let (c, s2b) = (weight.cos2b, flip * weight.sin2b);
+/// The sensitivity `s` turned by β: S(β).
+fn turned(s: &Stokes, cos2b: f64, sin2b: f64) -> Stokes {
     let [i, q, u, v] = s.0;
-    Stokes([i, q * c + u * s2b, u * c - q * s2b, v])
+    Stokes([i, q * cos2b + u * sin2b, u * cos2b - q * sin2b, v])
 }
 
 /// The sums of a part of a layout.
@@ -156,13 +138,6 @@ struct Total {
     weight: f64,
     /// Directions.
     count: u64,
-}
-
-impl Total {
-    fn add(&mut self, m: &Mueller, weight: &Weight, flip: f64) {
-        weight.add_turned(m, flip, &mut self.matrix);
-        self.weight += weight.weight;
-    }
 }
 
 impl AddAssign for Total {

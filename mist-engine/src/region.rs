@@ -14,7 +14,7 @@ mod outline;
 mod polygon;
 
 pub(crate) use outline::{Frame, above_horizon, outline, refuse_crossing};
-pub(crate) use polygon::Polygon;
+pub(crate) use polygon::{Cell, Cells, Polygon};
 
 use caps::Cap;
 

@@ -20,17 +20,18 @@ use crate::region::{above_horizon, outline, refuse_crossing};
 pub mod adaptive;
 mod chunk;
 mod key;
+mod lifting;
 mod pattern;
 mod points;
 mod projection;
 pub(crate) mod turn;
 
-pub(crate) use chunk::{Chunk, Weight};
+pub(crate) use chunk::{Chunk, Scratch};
 pub use key::LayoutKey;
 
 use chunk::seen;
+use lifting::{Asked, Known};
 use pattern::Pattern;
-use points::Lifted;
 use projection::Projection;
 use turn::Turn;
 
@@ -151,11 +152,14 @@ impl Layout {
         usize::try_from(self.plan.points().div_ceil(CHUNK)).unwrap_or(usize::MAX)
     }
 
-    /// Hands chunk `k` to `use_it`.
-    pub(crate) fn with_chunk<T>(&self, k: usize, use_it: impl FnOnce(&Chunk) -> T) -> T {
+    /// Chunk `k`, made in `scratch` if it is not stored.
+    pub(crate) fn chunk<'a>(&'a self, k: usize, scratch: &'a mut Scratch) -> &'a Chunk {
         match self.stored.get() {
-            Some(chunks) => use_it(&chunks[k]),
-            None => use_it(&self.plan.chunk(k as u64)),
+            Some(chunks) => &chunks[k],
+            None => {
+                self.plan.make_chunk(k as u64, scratch);
+                &scratch.chunk
+            }
         }
     }
 
@@ -178,7 +182,7 @@ impl Layout {
 
     /// Memory of the directions if they are stored, at most, bytes.
     pub fn bytes(&self) -> usize {
-        let per_direction = size_of::<Direction>() + size_of::<Weight>();
+        let per_direction = size_of::<Direction>() + 3 * size_of::<f64>();
         let most = if self.plan.points() <= STORED { self.plan.points() as usize } else { 0 };
         size_of::<Self>() + most * per_direction
     }
@@ -236,31 +240,35 @@ impl Plan {
 
     fn all_chunks(&self) -> Vec<Chunk> {
         let count = self.points().div_ceil(CHUNK);
+        let made = |scratch: &mut Scratch, k| {
+            self.make_chunk(k, scratch);
+            scratch.chunk.clone()
+        };
         if count == 1 {
-            return vec![self.chunk(0)];
+            return vec![made(&mut Scratch::default(), 0)];
         }
-        (0..count).into_par_iter().map(|k| self.chunk(k)).collect()
+        (0..count).into_par_iter().map_init(Scratch::default, made).collect()
     }
 
-    fn chunk(&self, k: u64) -> Chunk {
+    /// Makes chunk `k` in `scratch`.
+    fn make_chunk(&self, k: u64, Scratch { points, lifted, chunk }: &mut Scratch) {
         if let Inside::One(direction) = self.inside {
-            return if direction.is_above() { Chunk::one(direction) } else { Chunk::default() };
+            chunk.fill_with_one(direction.is_above().then_some(direction));
+            return;
         }
-        let range = k * CHUNK..self.points().min((k + 1) * CHUNK);
-        let mut points = self.pattern.part(range);
-        points.lift(self.projection, &self.frame);
-        points.filter_map(|point| self.kept(point));
-        Chunk::of(&points, &self.turn)
+        self.pattern.part(k * CHUNK..self.points().min((k + 1) * CHUNK), points);
+        let known = Known::new(self.projection, &self.frame, &self.inside);
+        lifted.fill(points, &known, |point| self.kept(point));
+        chunk.fill(lifted, &self.turn);
     }
 
-    /// `point` with its weight times cos θ, if it belongs to the region.
-    #[inline]
-    fn kept(&self, mut point: Lifted) -> Option<Lifted> {
-        if self.projection.is_delicate(point.plane, point.v.z) {
-            let (u, weight) = self.projection.lift_by_angles(point.plane);
-            (point.v, point.weight) = (self.frame.turn(u.to_array()).into(), weight);
+    /// The direction of `point` and its weight times cos θ, if it belongs to the region.
+    fn kept(&self, Asked { plane, mut v, mut weight }: Asked) -> Option<(DVec3, f64)> {
+        if !(self.projection.clearance(plane.to_array(), v.z) >= 0.0) {
+            let u;
+            (u, weight) = self.projection.lift_by_angles(plane);
+            v = self.frame.turn(u.to_array()).into();
         }
-        let v = point.v;
         let is_above = match self.apertures {
             Apertures::Nist => v.z > 0.0,
             Apertures::Exact => is_above(v.z),
@@ -268,14 +276,11 @@ impl Plan {
         let belongs = is_above
             && match &self.inside {
                 Inside::Cone => true,
-                Inside::Polygon(polygon) => {
-                    polygon.know(v.truncate()).unwrap_or_else(|| polygon.contains(projected(v)))
-                }
+                Inside::Polygon(polygon) => polygon.contains(projected(v)),
                 Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
                 Inside::One(_) => false,
             };
-        point.weight *= v.z;
-        belongs.then_some(point)
+        belongs.then_some((v, weight * v.z))
     }
 }
 

@@ -57,6 +57,14 @@ pub trait Real:
     /// `a` where this is not negative, `b` elsewhere.
     fn choose(self, a: Self, b: Self) -> Self;
 
+    /// The nearest whole number from 0 to `most`, which is whole and less than 2⁵¹; 0 for NaN.
+    #[inline(always)]
+    fn rounded_within(self, most: f64) -> Self {
+        let from_0 = self.choose(self, self.all(0.0));
+        let within = (-from_0 + most).choose(from_0, self.all(most));
+        within + ROUNDING - ROUNDING
+    }
+
     /// e^x for x ≤ 0, to 2·10⁻¹⁶ of it; 0 from −708 on, where numbers begin to lose digits.
     ///
     /// 2^k times the series of e^r, |r| ≤ ln 2/2, whose first term left out is r¹⁴/14! < 4·10⁻¹⁸.
@@ -326,6 +334,13 @@ mod tests {
         assert_eq!([0f64, -709.0].map(f64::exp_falling), [1.0, 0.0]);
         assert_eq!([-1e300, f64::NEG_INFINITY].map(f64::exp_falling), [0.0, 0.0]);
         assert!(f64::NAN.exp_falling().is_nan());
+    }
+
+    #[test]
+    fn numbers_are_rounded_and_kept_within_their_range() {
+        let x = [-3.0, -0.2, 0.4, 0.6, 6.7, 7.2, 1e300, f64::INFINITY, f64::NAN];
+        let want = [0.0, 0.0, 0.0, 1.0, 7.0, 7.0, 7.0, 7.0, 0.0];
+        assert_eq!(x.map(|x| x.rounded_within(7.0)), want);
     }
 
     #[inline(always)]

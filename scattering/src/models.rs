@@ -6,7 +6,7 @@ use num_complex::Complex64;
 use crate::{
     Basis, Direction, Geometry, Incidence, Jones, Mode, Mueller, Node, ParamError, Side,
     geometry::beams,
-    polarization::change_basis,
+    polarization::{Signed, Weights, change_basis},
     spec::{self, Family, Member, Param, Spec, range},
 };
 
@@ -41,6 +41,16 @@ pub trait Brdf: Send + Sync {
         }
     }
 
+    /// Σ w R(β)ᵀ M over directions of one beam; `weights` has the length of `directions`.
+    ///
+    /// Overridden where the matrices of a sum need not be written; a sum in another order differs
+    /// by its rounding.
+    fn sum(&self, incidence: &Incidence, directions: &[Direction], weights: Signed<'_>) -> Mueller {
+        sum_of(directions, weights, |directions, out| {
+            self.mueller_batch(incidence, directions, out);
+        })
+    }
+
     /// Jones matrix J with M(J) the BRDF, for models that do not depolarize.
     fn jones(&self, _: &Incidence, _: &Direction) -> Option<Jones> {
         None
@@ -62,6 +72,27 @@ pub trait Brdf: Send + Sync {
     fn native_basis(&self) -> Basis {
         Basis::Psps
     }
+}
+
+/// Directions that are evaluated at a time in a sum; their matrices stay in the fastest cache.
+pub(crate) const BATCH: usize = 128;
+
+/// Σ w R(β)ᵀ M of the matrices that `evaluate` gives for parts of the directions.
+fn sum_of(
+    directions: &[Direction],
+    weights: Signed<'_>,
+    evaluate: impl Fn(&[Direction], &mut [Mueller]),
+) -> Mueller {
+    let mut sum = Mueller::ZERO;
+    let mut matrices = [Mueller::ZERO; BATCH];
+    for (number, directions) in directions.chunks(BATCH).enumerate() {
+        let matrices = &mut matrices[..directions.len()];
+        evaluate(directions, matrices);
+        for (k, m) in matrices.iter().enumerate() {
+            weights.add(number * BATCH + k, m, &mut sum);
+        }
+    }
+    sum
 }
 
 /// A cone of directions with a sharp rim.
@@ -255,6 +286,36 @@ impl Model {
             }
         }
         self.convert(incidence, directions, basis, out);
+    }
+
+    /// Σ w R(β)ᵀ M over many directions of one beam, in the units of the BRDF (1/sr) times those of
+    /// the weights; nothing comes from and goes to directions at and below the horizon.
+    ///
+    /// # Panics
+    ///
+    /// If there is another number of weights than of directions.
+    pub fn sum(
+        &self,
+        incidence: &Incidence,
+        directions: &[Direction],
+        weights: &Weights,
+        basis: Basis,
+    ) -> Mueller {
+        assert_eq!(directions.len(), weights.count(), "one weight per direction");
+        let weights = weights.signed(self.turn());
+        let is_above = incidence.is_above() && directions.iter().all(Direction::is_above);
+        if is_above && self.brdf.native_basis() == basis {
+            return self.brdf.sum(incidence, directions, weights);
+        }
+        sum_of(directions, weights, |directions, out| {
+            self.evaluate(incidence, directions, basis, out);
+        })
+    }
+
+    /// −1 for light that leaves downwards, where an aperture's sensitivity turns the other way,
+    /// otherwise 1.
+    pub fn turn(&self) -> f64 {
+        if self.common().side.to_below() { -1.0 } else { 1.0 }
     }
 
     fn convert(&self, inc: &Incidence, directions: &[Direction], to: Basis, out: &mut [Mueller]) {

@@ -4,10 +4,12 @@ mod basis;
 mod jones;
 mod mueller;
 mod stokes;
+mod weights;
 
 pub(crate) use basis::is_normal;
 pub use basis::{Basis, Beams, Frame, change_basis, perp};
 pub use jones::Jones;
-pub(crate) use jones::muellers;
+pub(crate) use jones::{elements, muellers};
 pub use mueller::Mueller;
 pub use stokes::Stokes;
+pub use weights::{Signed, Weights};

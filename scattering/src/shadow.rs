@@ -1,7 +1,7 @@
 //! Shadowing functions: the fraction of facets that is lit and seen.
 
 use crate::{
-    Direction, Incidence, Mueller,
+    Direction, Incidence,
     slope::SlopeDistribution,
     spec::{Family, Member, ParamError, Spec},
 };
@@ -18,12 +18,12 @@ pub trait Shadow: Send + Sync {
     /// G for the beam `incidence` (with the rotation of the sample) and the exit `direction`.
     fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64;
 
-    /// Multiplies every matrix by the fraction of its direction.
+    /// G for many directions of one beam; `out` has the length of `directions`.
     ///
     /// Overridden where a batch can share work; the numbers do not change by it.
-    fn shade(&self, incidence: &Incidence, directions: &[Direction], matrices: &mut [Mueller]) {
-        for (m, direction) in matrices.iter_mut().zip(directions) {
-            *m *= self.fraction(incidence, direction);
+    fn fractions(&self, incidence: &Incidence, directions: &[Direction], out: &mut [f64]) {
+        for (fraction, direction) in out.iter_mut().zip(directions) {
+            *fraction = self.fraction(incidence, direction);
         }
     }
 
@@ -73,9 +73,10 @@ mod tests {
                 let turned = Incidence::new(b, r + std::f64::consts::PI - phi);
                 let back = shadow.fraction(&turned, &Direction::new(a, -phi));
                 assert!((there - back).abs() < 1e-14, "{}: {there} and {back}", class.name);
-                let mut shaded = [Mueller::diagonal([1.0, 2.0, 0.0, 0.0])];
-                shadow.shade(&Incidence::new(a, r), &[Direction::new(b, phi)], &mut shaded);
-                assert_eq!(shaded[0], Mueller::diagonal([1.0, 2.0, 0.0, 0.0]) * there);
+                let mut fractions = [0.0; 5];
+                let directions = [Direction::new(b, phi); 5];
+                shadow.fractions(&Incidence::new(a, r), &directions, &mut fractions);
+                assert_eq!(fractions, [there; 5]);
                 assert!((0.0..=1.0).contains(&there), "{}: {there}", class.name);
             }
         }

@@ -7,12 +7,14 @@
 
 use std::f64::consts::PI;
 
-use scattering::{Basis, Direction, Incidence, Model, Mueller, special::gauss};
+use scattering::{
+    Basis, Direction, Incidence, Model, Mueller, polarization::Weights, special::gauss,
+};
 
 use super::table::Patch;
 use crate::{
     region::{Angles, Region, RegionError, unit},
-    sampling::{Layout, Sampling, Scale, Weight, turn::Turn},
+    sampling::{Layout, Sampling, Scale, Scratch, turn::Turn},
 };
 
 /// Directions that are evaluated at a time.
@@ -26,7 +28,7 @@ const RING: usize = 360;
 #[derive(Debug, Default)]
 pub(super) struct Probes {
     directions: Vec<Direction>,
-    weights: Vec<Weight>,
+    weights: Weights,
     /// Per patch the end of its directions.
     ends: Vec<usize>,
     /// Per patch its projected solid angle, sr.
@@ -82,12 +84,12 @@ impl Probes {
 
     fn add_region(&mut self, region: &Region, sampling: &Sampling) -> Result<(), RegionError> {
         let layout = Layout::new(region, sampling)?;
-        let start = self.weights.len();
+        let start = self.weights.count();
+        let mut scratch = Scratch::default();
         for k in 0..layout.chunks() {
-            layout.with_chunk(k, |chunk| {
-                self.directions.extend(&chunk.directions);
-                self.weights.extend(&chunk.weights);
-            });
+            let chunk = layout.chunk(k, &mut scratch);
+            self.directions.extend(&chunk.directions);
+            self.weights.extend(&chunk.weights);
         }
         let omega = region.projected_solid_angle();
         let factor = match layout.scale() {
@@ -107,7 +109,7 @@ impl Probes {
             gauss::legendre(n, a, b)
         };
         let (thetas, phis) = (nodes(cell.theta), nodes(cell.phi));
-        let start = self.weights.len();
+        let start = self.weights.count();
         for &(theta, w) in &thetas {
             for &(phi, wp) in &phis {
                 let weight = w * wp * theta.sin() * theta.cos();
@@ -121,7 +123,7 @@ impl Probes {
 
     /// Adds the ring between two polar angles (radians); each direction keeps its own s and p.
     pub(super) fn add_ring(&mut self, theta: (f64, f64)) {
-        let start = self.weights.len();
+        let start = self.weights.count();
         let n = ((theta.1 - theta.0).to_degrees().ceil() as usize + 2).clamp(3, 24);
         for (theta, w) in gauss::legendre(n, theta.0, theta.1) {
             for k in 0..RING {
@@ -133,13 +135,13 @@ impl Probes {
         self.finish(2.0 * PI * band(theta));
     }
 
-    fn push(&mut self, direction: Direction, weight: f64, [cos2b, sin2b]: [f64; 2]) {
+    fn push(&mut self, direction: Direction, weight: f64, turned: [f64; 2]) {
         self.directions.push(direction);
-        self.weights.push(Weight { weight, cos2b, sin2b });
+        self.weights.push(weight, turned);
     }
 
     fn sum(&self, start: usize) -> f64 {
-        self.weights[start..].iter().map(|w| w.weight).sum()
+        self.weights.weight[start..].iter().sum()
     }
 
     fn normalize(&mut self, start: usize) {
@@ -148,7 +150,7 @@ impl Probes {
     }
 
     fn scale(&mut self, start: usize, factor: f64) {
-        self.weights[start..].iter_mut().for_each(|w| w.weight *= factor);
+        self.weights.weight[start..].iter_mut().for_each(|weight| *weight *= factor);
     }
 
     fn finish(&mut self, omega: f64) {
@@ -176,7 +178,7 @@ impl Probes {
         basis: Basis,
         (first, last): (usize, usize),
     ) -> Vec<Mueller> {
-        let flip = if model.common().side.to_below() { -1.0 } else { 1.0 };
+        let weights = self.weights.signed(model.turn());
         let mut means = vec![Mueller::ZERO; last - first];
         let mut at = if first == 0 { 0 } else { self.ends[first - 1] };
         let (end, mut patch) = (self.ends[last - 1], first);
@@ -189,7 +191,7 @@ impl Probes {
                 while at + offset >= self.ends[patch] {
                     patch += 1;
                 }
-                self.weights[at + offset].add_turned(m, flip, &mut means[patch - first]);
+                weights.add(at + offset, m, &mut means[patch - first]);
             }
             at += count;
         }

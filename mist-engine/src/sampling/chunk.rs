@@ -2,90 +2,88 @@
 
 use glam::DVec3;
 use scattering::{
-    Direction, Mueller,
+    Direction,
     lanes::{Batch, Real, Vectors, WIDTH, with_widest},
+    polarization::Weights,
 };
 
-use super::{points::Points, turn::Turn};
+use super::{lifting::Lifted, points::Points, turn::Turn};
 
 /// A part of a layout, in the order of evaluation.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Chunk {
     pub(crate) directions: Vec<Direction>,
-    pub(crate) weights: Vec<Weight>,
+    /// Weights of the sampling times cos θ, turned towards the centre of polarization.
+    pub(crate) weights: Weights,
 }
 
-/// What belongs to one direction.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Weight {
-    /// Weight of the sampling times cos θ.
-    pub(crate) weight: f64,
-    /// cos 2β, β the turn of the sensitivity towards the centre of polarization.
-    pub(crate) cos2b: f64,
-    /// sin 2β, to be negated for light that leaves downwards.
-    pub(crate) sin2b: f64,
-}
-
-impl Weight {
-    /// Adds w R(β)ᵀ M: S(β) = R S, so rows 1 and 2 of M are turned the other way.
-    pub(crate) fn add_turned(&self, m: &Mueller, flip: f64, sum: &mut Mueller) {
-        let w = self.weight;
-        let (c, s) = (w * self.cos2b, w * flip * self.sin2b);
-        let sum = &mut sum.0;
-        for k in 0..4 {
-            sum[0][k] += w * m.0[0][k];
-            sum[1][k] += c * m.0[1][k] - s * m.0[2][k];
-            sum[2][k] += s * m.0[1][k] + c * m.0[2][k];
-            sum[3][k] += w * m.0[3][k];
-        }
-    }
+/// Memory for the making of chunks, to be used again.
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
+    pub(super) points: Points,
+    pub(super) lifted: Lifted,
+    pub(super) chunk: Chunk,
 }
 
 impl Chunk {
-    /// One direction whose sensitivity is not turned.
-    pub(super) fn one(direction: Direction) -> Self {
-        let weight = Weight { weight: direction.cos, cos2b: 1.0, sin2b: 0.0 };
-        Self { directions: vec![direction], weights: vec![weight] }
+    /// Becomes one direction whose sensitivity is not turned, or none.
+    pub(super) fn fill_with_one(&mut self, direction: Option<Direction>) {
+        self.clear();
+        if let Some(direction) = direction {
+            self.directions.push(direction);
+            self.weights.push(direction.cos, [1.0, 0.0]);
+        }
     }
 
-    /// The directions of points above the horizon.
-    pub(super) fn of(points: &Points, turn: &Turn) -> Self {
-        let count = points.count();
-        let mut chunk =
-            Self { directions: Vec::with_capacity(count), weights: Vec::with_capacity(count) };
-        with_widest(Filling { chunk: &mut chunk, points, turn });
-        chunk
+    /// Becomes the directions of unit vectors above the horizon.
+    pub(super) fn fill(&mut self, lifted: &Lifted, turn: &Turn) {
+        self.clear();
+        let whole = lifted.count().next_multiple_of(WIDTH);
+        self.directions.reserve(whole);
+        self.weights.resize(whole);
+        with_widest(Filling { chunk: self, lifted, turn });
+        self.directions.truncate(lifted.count());
+        self.weights.resize(lifted.count());
+    }
+
+    fn clear(&mut self) {
+        self.directions.clear();
+        self.weights.resize(0);
     }
 }
 
-/// The making of a chunk.
+/// The filling of a chunk, which has room.
 struct Filling<'a> {
     chunk: &'a mut Chunk,
-    points: &'a Points,
+    lifted: &'a Lifted,
     turn: &'a Turn,
 }
 
 impl Batch for Filling<'_> {
     #[inline(always)]
     fn run<V: Vectors>(self, vectors: V) {
-        let mut left = self.points.count();
-        for ([x, y, z], weight) in self.points.groups() {
-            let v = [vectors.load(&x), vectors.load(&y), vectors.load(&z)];
+        let Self { chunk: Chunk { directions, weights }, lifted, turn } = self;
+        let weights =
+            weights.weight.as_chunks_mut().0.iter_mut().zip(
+                weights.cos2b.as_chunks_mut().0.iter_mut().zip(weights.sin2b.as_chunks_mut().0),
+            );
+        for (([x, y, z], from), (weight, (cos2b, sin2b))) in lifted.groups().zip(weights) {
+            let v = [vectors.load(x), vectors.load(y), vectors.load(z)];
             let [sin, across, sin_phi, cos_phi] = sines(v);
             let (sin, across) = (vectors.store(sin), vectors.store(across));
             let (sin_phi, cos_phi) = (vectors.store(sin_phi), vectors.store(cos_phi));
-            let [cos2b, sin2b] = self.turn.at(v);
-            let (cos2b, sin2b) = (vectors.store(cos2b), vectors.store(sin2b));
-            for k in 0..left.min(WIDTH) {
-                self.chunk.directions.push(if across[k] > 0.0 {
-                    Direction::from_sin_cos((sin[k], z[k]), (sin_phi[k], cos_phi[k]))
-                } else {
-                    seen(DVec3::new(x[k], y[k], z[k]))
-                });
-                let (weight, cos2b, sin2b) = (weight[k], cos2b[k], sin2b[k]);
-                self.chunk.weights.push(Weight { weight, cos2b, sin2b });
+            let turned = turn.at(v);
+            *weight = *from;
+            *cos2b = vectors.store(turned[0]);
+            *sin2b = vectors.store(turned[1]);
+            let mut group = [Direction::from_sin_cos((0.0, 1.0), (0.0, 1.0)); WIDTH];
+            for (k, direction) in group.iter_mut().enumerate() {
+                *direction = Direction::from_sin_cos((sin[k], z[k]), (sin_phi[k], cos_phi[k]));
+                if !(across[k] > 0.0) {
+                    *direction = seen(DVec3::new(x[k], y[k], z[k]));
+                }
             }
-            left -= left.min(WIDTH);
+            directions.extend_from_slice(&group);
         }
     }
 }

@@ -48,9 +48,9 @@ impl Pattern {
         }
     }
 
-    /// The points of the disk with numbers in `range`, in order.
-    pub(super) fn part(&self, range: Range<u64>) -> Points {
-        let mut points = Points::with_capacity((range.end - range.start) as usize);
+    /// Puts the points of the disk with numbers in `range` into `points`, in order.
+    pub(super) fn part(&self, range: Range<u64>, points: &mut Points) {
+        points.clear();
         match *self {
             Self::One => points.push(0.0, [0.0]),
             Self::Grid { step, most, radius } => {
@@ -73,7 +73,6 @@ impl Pattern {
                 }
             }
         }
-        points
     }
 }
 
@@ -135,7 +134,11 @@ mod tests {
 
     fn all(pattern: Pattern, chunk: u64) -> Vec<(f64, f64)> {
         let n = pattern.points();
-        let part = |start| pattern.part(start..n.min(start + chunk)).of_plane().collect::<Vec<_>>();
+        let part = |start| {
+            let mut points = Points::default();
+            pattern.part(start..n.min(start + chunk), &mut points);
+            points.all().collect::<Vec<_>>()
+        };
         (0..n).step_by(chunk as usize).flat_map(part).collect()
     }
 

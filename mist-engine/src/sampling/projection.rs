@@ -16,7 +16,7 @@ pub(super) enum Projection {
 
 /// Closer to a horizon than this, sines and cosines are taken of angles, as NIST's program does:
 /// whether a point is kept can depend on their rounding.
-pub(super) const DELICATE: f64 = 1e-9;
+const DELICATE: f64 = 1e-9;
 
 impl Projection {
     /// The projection of a value of `integrationmode`.
@@ -84,10 +84,18 @@ impl Projection {
         (crate::region::unit((t, p.y.atan2(p.x))), weight)
     }
 
-    /// Whether rounding decides about the point `p` with this cosine to the normal.
-    pub(super) fn is_delicate(self, p: DVec2, to_normal: f64) -> bool {
-        let to_rim = || 1.0 - p.length_squared();
-        to_normal.abs() < DELICATE || (self == Self::Orthographic && !(to_rim() >= DELICATE))
+    /// Not negative where rounding does not decide about the point (x, y) of the plane that is lifted
+    /// to a direction with the z component `z`, and about its weight; or about several points.
+    #[inline(always)]
+    pub(super) fn clearance<R: Real>(self, [x, y]: [R; 2], z: R) -> R {
+        let to_horizon = z.abs() - DELICATE;
+        match self {
+            Self::Equidistant | Self::EqualArea => to_horizon,
+            Self::Orthographic => {
+                let to_rim = -(x * x + y * y) + 1.0 - DELICATE;
+                to_rim.choose(to_horizon, to_rim)
+            }
+        }
     }
 }
 

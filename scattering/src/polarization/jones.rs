@@ -55,7 +55,7 @@ impl Jones {
 
 /// The elements of the Mueller matrix of the Jones matrix with the elements ss, ps, sp, pp.
 #[inline(always)]
-fn elements<R: Real>([a, b, c, d]: [Complex<R>; 4]) -> [[R; 4]; 4] {
+pub(crate) fn elements<R: Real>([a, b, c, d]: [Complex<R>; 4]) -> [[R; 4]; 4] {
     let (a2, b2, c2, d2) = (a.norm_sqr(), b.norm_sqr(), c.norm_sqr(), d.norm_sqr());
     let (ab, cd) = (a.times_conjugate(b), d.times_conjugate(c));
     let (ac, bd) = (a.times_conjugate(c), d.times_conjugate(b));

@@ -17,7 +17,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::{Shadow, sancer::lambda_and_erfc};
 use crate::{
-    Direction, Incidence, Mueller,
+    Direction, Incidence,
     geometry::Outgoing,
     lanes::{Batch, Real, Vectors, WIDTH, with_widest},
     spec::{Class, Laws, Param, ParamError, Spec},
@@ -61,23 +61,20 @@ impl Smith {
     }
 }
 
-/// Matrices to be shadowed, several at a time.
-struct Shade<'a> {
+/// The fractions of several directions at a time.
+struct Fractions<'a> {
     smith: &'a Smith,
     of_source: f64,
     directions: &'a [[Direction; WIDTH]],
-    matrices: &'a mut [[Mueller; WIDTH]],
+    out: &'a mut [[f64; WIDTH]],
 }
 
-impl Batch for Shade<'_> {
+impl Batch for Fractions<'_> {
     #[inline(always)]
     fn run<V: Vectors>(self, vectors: V) {
-        for (directions, matrices) in self.directions.iter().zip(self.matrices) {
+        for (directions, out) in self.directions.iter().zip(self.out) {
             let Outgoing { sin, cos, .. } = Outgoing::several(vectors, directions);
-            let fractions = vectors.store(self.smith.one_ray(sin, cos) * self.of_source);
-            for (m, fraction) in matrices.iter_mut().zip(fractions) {
-                *m *= fraction;
-            }
+            *out = vectors.store(self.smith.one_ray(sin, cos) * self.of_source);
         }
     }
 }
@@ -87,13 +84,13 @@ impl Shadow for Smith {
         self.one_ray(incidence.sin, incidence.cos) * self.one_ray(direction.sin, direction.cos)
     }
 
-    fn shade(&self, incidence: &Incidence, directions: &[Direction], matrices: &mut [Mueller]) {
+    fn fractions(&self, incidence: &Incidence, directions: &[Direction], out: &mut [f64]) {
         let of_source = self.one_ray(incidence.sin, incidence.cos);
         let (directions, rest) = directions.as_chunks();
-        let (matrices, left) = matrices.as_chunks_mut();
-        with_widest(Shade { smith: self, of_source, directions, matrices });
-        for (m, direction) in left.iter_mut().zip(rest) {
-            *m *= self.one_ray(direction.sin, direction.cos) * of_source;
+        let (out, left) = out.as_chunks_mut();
+        with_widest(Fractions { smith: self, of_source, directions, out });
+        for (fraction, direction) in left.iter_mut().zip(rest) {
+            *fraction = self.one_ray(direction.sin, direction.cos) * of_source;
         }
     }
 }

@@ -1,7 +1,10 @@
 //! Cells of the plane that lie as a whole inside or outside of a polygon: most points are decided
 //! by a look at theirs.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec2;
+use scattering::lanes::Real;
 
 use super::{
     Edge,
@@ -10,7 +13,7 @@ use super::{
 
 /// Cells in rows and columns over the polygon, and one more on each side.
 #[derive(Clone, Debug)]
-pub(super) struct Cells {
+pub(crate) struct Cells {
     low: DVec2,
     /// Cells per x and per y.
     per: DVec2,
@@ -19,9 +22,12 @@ pub(super) struct Cells {
     cells: Vec<Cell>,
 }
 
+/// What is known about the points of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Cell {
+pub(crate) enum Cell {
+    /// They are inside.
     Inside,
+    /// They are outside.
     Outside,
     /// An edge runs here, or NIST's rules count a vertex above in an odd way.
     Edges,
@@ -46,6 +52,7 @@ impl Cells {
             let mut cells = Self { low: low - cell, per: cell.recip(), side, cells };
             cells.mark(edges);
             cells.fill(contain);
+            cells.cells[0] = Cell::Edges;
             cells
         })
     }
@@ -69,7 +76,7 @@ impl Cells {
         }
     }
 
-    fn mark_column(&mut self, column: usize, rows: std::ops::RangeInclusive<usize>) {
+    fn mark_column(&mut self, column: usize, rows: RangeInclusive<usize>) {
         let first = column * self.side;
         self.cells[first + rows.start()..=first + rows.end()].fill(Cell::Edges);
     }
@@ -94,7 +101,7 @@ impl Cells {
     }
 
     /// The columns of abscissas next to `left` and `right` and of all between.
-    fn columns(&self, left: f64, right: f64) -> std::ops::RangeInclusive<usize> {
+    fn columns(&self, left: f64, right: f64) -> RangeInclusive<usize> {
         let column = |x: f64| (((x - self.low.x) * self.per.x) as usize).min(self.side - 1);
         column(left - MARGIN)..=column(right + MARGIN)
     }
@@ -103,19 +110,19 @@ impl Cells {
         (((y - self.low.y) * self.per.y) as usize).min(self.side - 1)
     }
 
-    /// Whether `p` is inside, if its cell tells.
-    #[inline]
-    pub(super) fn know(&self, p: DVec2) -> Option<bool> {
-        let at = (p - self.low) * self.per;
-        let side = self.side as f64;
-        if !(at.x >= 0.0 && at.y >= 0.0 && at.x < side && at.y < side) {
-            return None;
-        }
-        match self.cells[at.x as usize * self.side + at.y as usize] {
-            Cell::Inside => Some(true),
-            Cell::Outside => Some(false),
-            Cell::Edges => None,
-        }
+    /// The number of the cell of the point (x, y), or of several points; those beside all cells
+    /// belong to the nearest.
+    #[inline(always)]
+    pub(crate) fn number<R: Real>(&self, [x, y]: [R; 2]) -> R {
+        let last = (self.side - 1) as f64;
+        let column = ((x - self.low.x) * self.per.x - 0.5).rounded_within(last);
+        let row = ((y - self.low.y) * self.per.y - 0.5).rounded_within(last);
+        column * self.side as f64 + row
+    }
+
+    /// All cells by their numbers: the first is one of [`Cell::Edges`], the last lies outside.
+    pub(crate) fn all(&self) -> &[Cell] {
+        &self.cells
     }
 }
 

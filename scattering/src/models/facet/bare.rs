@@ -30,10 +30,10 @@ use super::{
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
     geometry::Outgoing,
-    lanes::{Batch, Vectors, WIDTH, with_widest},
+    lanes::{Batch, Complex, Vectors, WIDTH, with_widest},
     models::{Brdf, COMMON, Common},
     optics::film::{Films, Pair},
-    polarization::muellers,
+    polarization::{Signed, elements, muellers},
     slope::SlopeDistribution,
     spec::{Class, Laws, Spec},
     stack::Stack,
@@ -91,11 +91,73 @@ struct Matrices<'a> {
 impl Batch for Matrices<'_> {
     #[inline(always)]
     fn run<V: Vectors>(self, vectors: V) {
+        let Self { facet, incidence, .. } = self;
         for ((directions, density), out) in self.directions.iter().zip(self.densities).zip(self.out)
         {
-            self.facet.with_density(vectors, self.incidence, directions, density, out);
+            let several = facet.several(vectors, incidence, directions, density);
+            muellers(vectors, several.jones, several.weight, out);
+            if several.is_delicate {
+                for (m, direction) in out.iter_mut().zip(directions) {
+                    *m = facet.mueller(incidence, direction);
+                }
+            }
         }
     }
+}
+
+/// The sum of such matrices, w R(β)ᵀ M, lane by lane.
+struct Sums<'a> {
+    facet: &'a Facet,
+    incidence: &'a Incidence,
+    directions: &'a [[Direction; WIDTH]],
+    densities: &'a [[f64; WIDTH]],
+    weights: Signed<'a>,
+    sum: &'a mut Mueller,
+}
+
+impl Batch for Sums<'_> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self { facet, incidence, directions, densities, weights, sum } = self;
+        let [weight, cos2b, sin2b] =
+            [weights.weight, weights.cos2b, weights.sin2b].map(|part| part.as_chunks().0);
+        let zero = vectors.load(&[0.0; WIDTH]);
+        let mut sums = [[zero; 4]; 4];
+        for (group, (directions, density)) in directions.iter().zip(densities).enumerate() {
+            let several = facet.several(vectors, incidence, directions, density);
+            if several.is_delicate {
+                for (k, direction) in directions.iter().enumerate() {
+                    weights.add(group * WIDTH + k, &facet.mueller(incidence, direction), sum);
+                }
+                continue;
+            }
+            let m = elements(several.jones);
+            let w = several.weight * vectors.load(&weight[group]);
+            let (c, s) =
+                (w * vectors.load(&cos2b[group]), w * (vectors.load(&sin2b[group]) * weights.sign));
+            for k in 0..4 {
+                sums[0][k] = sums[0][k] + w * m[0][k];
+                sums[1][k] = sums[1][k] + (c * m[1][k] - s * m[2][k]);
+                sums[2][k] = sums[2][k] + (s * m[1][k] + c * m[2][k]);
+                sums[3][k] = sums[3][k] + w * m[3][k];
+            }
+        }
+        for (row, sums) in sum.0.iter_mut().zip(sums) {
+            for (element, lanes) in row.iter_mut().zip(sums) {
+                *element += vectors.store(lanes).into_iter().sum::<f64>();
+            }
+        }
+    }
+}
+
+/// Several bare facets met from above.
+struct Several<R> {
+    /// |w|² J.
+    jones: [Complex<R>; 4],
+    /// What M of it is to be multiplied by.
+    weight: R,
+    /// Whether one of them is met so close to its normal that it must be looked at alone.
+    is_delicate: bool,
 }
 
 /// Squared sine of the local angle below which the library turns nothing, in reflection.
@@ -157,49 +219,57 @@ impl Facet {
         (if from_below { jones.flipped() } else { jones }, weight)
     }
 
-    /// The same for several directions and bare facets met from above, as matrices.
-    ///
-    /// There are at most [`GROUPS`] of them.
-    fn reflections(
+    /// Hands the densities of the slopes that reflect into several directions to `use_them`, with
+    /// the number of the first group of directions, for at most [`GROUPS`] groups at a time.
+    fn with_densities(
         &self,
         incidence: &Incidence,
         directions: &[[Direction; WIDTH]],
-        out: &mut [[Mueller; WIDTH]],
+        mut use_them: impl FnMut(usize, &[[Direction; WIDTH]], &[[f64; WIDTH]]),
     ) {
         let mut slopes = [[[0.0; WIDTH]; 2]; GROUPS];
         let mut densities = [[0.0; WIDTH]; GROUPS];
-        let slopes = &mut slopes[..directions.len()];
-        let densities = &mut densities[..directions.len()];
-        with_widest(Slopes { incidence, directions, out: slopes });
-        self.slopes.densities(slopes, densities);
-        with_widest(Matrices { facet: self, incidence, directions, densities, out });
+        for (part, directions) in directions.chunks(GROUPS).enumerate() {
+            let slopes = &mut slopes[..directions.len()];
+            let densities = &mut densities[..directions.len()];
+            with_widest(Slopes { incidence, directions, out: slopes });
+            self.slopes.densities(slopes, densities);
+            use_them(part * GROUPS, directions, densities);
+        }
     }
 
     #[inline(always)]
-    fn with_density<V: Vectors>(
+    fn several<V: Vectors>(
         &self,
         vectors: V,
         incidence: &Incidence,
         directions: &[Direction; WIDTH],
         density: &[f64; WIDTH],
-        out: &mut [Mueller; WIDTH],
-    ) {
+    ) -> Several<V::Real> {
         let to = Outgoing::several(vectors, directions);
         let facet = Tilted::between(incidence, &to);
         let turn = Turn::new(incidence, &to, to.cos);
         let norm = turn.norm();
-        let jones = turn.elements(self.films.bare(facet.cos(), facet.sin2));
         let weight =
             vectors.load(density) * facet.elongation() / (to.cos * (4.0 * incidence.cos) * norm);
-        muellers(vectors, jones, weight, out);
-        let is_delicate = |norm: f64, sin2: f64| {
-            norm < f64::MIN_POSITIVE || (self.unturned && sin2 <= UNTURNED_REFLECTION)
-        };
+        let mut is_delicate = false;
         let (norm, sin2) = (vectors.store(norm), vectors.store(facet.sin2));
-        for (k, m) in out.iter_mut().enumerate() {
-            if is_delicate(norm[k], sin2[k]) {
-                *m = self.mueller(incidence, &directions[k]);
-            }
+        for (norm, sin2) in norm.into_iter().zip(sin2) {
+            is_delicate |=
+                norm < f64::MIN_POSITIVE || (self.unturned && sin2 <= UNTURNED_REFLECTION);
+        }
+        let jones = turn.elements(self.films.bare(facet.cos(), facet.sin2));
+        Several { jones, weight, is_delicate }
+    }
+
+    /// How many of the first directions go through [`Facet::several`]: all but the last few where
+    /// bare facets reflect from above.
+    fn groups<'d>(&self, directions: &'d [Direction]) -> (&'d [[Direction; WIDTH]], usize) {
+        if self.common.side == Side::DownUp && self.films.is_bare() {
+            let (groups, rest) = directions.as_chunks();
+            (groups, directions.len() - rest.len())
+        } else {
+            (&[], 0)
         }
     }
 
@@ -265,18 +335,30 @@ impl Brdf for Facet {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        let (mut rest, mut left) = (directions, &mut *out);
-        if self.common.side == Side::DownUp && self.films.is_bare() {
-            let (several, to) = (directions.as_chunks().0, out.as_chunks_mut().0);
-            for (directions, out) in several.chunks(GROUPS).zip(to.chunks_mut(GROUPS)) {
-                self.reflections(incidence, directions, out);
-            }
-            let done = several.len() * WIDTH;
-            (rest, left) = (&directions[done..], &mut out[done..]);
-        }
-        for (m, direction) in left.iter_mut().zip(rest) {
+        let (groups, done) = self.groups(directions);
+        let (to, left) = out.split_at_mut(done);
+        let to = to.as_chunks_mut().0;
+        self.with_densities(incidence, groups, |first, directions, densities| {
+            let out = &mut to[first..first + directions.len()];
+            with_widest(Matrices { facet: self, incidence, directions, densities, out });
+        });
+        for (m, direction) in left.iter_mut().zip(&directions[done..]) {
             *m = self.mueller(incidence, direction);
         }
+    }
+
+    fn sum(&self, incidence: &Incidence, directions: &[Direction], weights: Signed<'_>) -> Mueller {
+        let mut sum = Mueller::ZERO;
+        let (groups, done) = self.groups(directions);
+        self.with_densities(incidence, groups, |first, directions, densities| {
+            let weights = weights.part(first * WIDTH..(first + directions.len()) * WIDTH);
+            let sum = &mut sum;
+            with_widest(Sums { facet: self, incidence, directions, densities, weights, sum });
+        });
+        for (k, direction) in directions.iter().enumerate().skip(done) {
+            weights.add(k, &self.mueller(incidence, direction), &mut sum);
+        }
+        sum
     }
 
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {

@@ -9,7 +9,8 @@
 use super::{FACET, bare::Facet, read_shadow};
 use crate::{
     Direction, Incidence, Jones, Mueller,
-    models::{Brdf, COMMON, Common},
+    models::{BATCH, Brdf, COMMON, Common},
+    polarization::Signed,
     shadow::Shadow,
     spec::{Class, Family, Laws, Param, Spec},
 };
@@ -57,7 +58,29 @@ impl Brdf for ShadowedFacet {
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
         self.facet.mueller_batch(incidence, directions, out);
-        self.shadow.shade(incidence, directions, out);
+        let mut fractions = [0.0; BATCH];
+        for (directions, out) in directions.chunks(BATCH).zip(out.chunks_mut(BATCH)) {
+            let fractions = &mut fractions[..directions.len()];
+            self.shadow.fractions(incidence, directions, fractions);
+            for (m, fraction) in out.iter_mut().zip(fractions) {
+                *m *= *fraction;
+            }
+        }
+    }
+
+    fn sum(&self, incidence: &Incidence, directions: &[Direction], weights: Signed<'_>) -> Mueller {
+        let mut sum = Mueller::ZERO;
+        let mut shadowed = [0.0; BATCH];
+        for (number, directions) in directions.chunks(BATCH).enumerate() {
+            let weights = weights.part(number * BATCH..number * BATCH + directions.len());
+            let shadowed = &mut shadowed[..directions.len()];
+            self.shadow.fractions(incidence, directions, shadowed);
+            for (shadowed, weight) in shadowed.iter_mut().zip(weights.weight) {
+                *shadowed *= weight;
+            }
+            sum += self.facet.sum(incidence, directions, Signed { weight: shadowed, ..weights });
+        }
+        sum
     }
 
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {

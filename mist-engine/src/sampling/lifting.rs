@@ -1,0 +1,174 @@
+//! Points of the plane are put on the sphere, and those that belong to the region are kept: most
+//! are kept or left several at once, by the cells of the region's polygon.
+
+use glam::{DVec2, DVec3};
+use scattering::lanes::{Batch, Real, Vectors, WIDTH, with_widest};
+
+use super::{Inside, points::Points, projection::Projection};
+use crate::region::{Cell, Cells, Frame};
+
+/// Unit vectors with their weights, part by part; there is room behind the last one.
+#[derive(Debug, Default)]
+pub(super) struct Lifted {
+    count: usize,
+    v: [Vec<f64>; 3],
+    /// What makes up for the projection, times cos θ.
+    weights: Vec<f64>,
+}
+
+/// A point about which has to be asked.
+#[derive(Clone, Copy)]
+pub(super) struct Asked {
+    /// In the plane.
+    pub(super) plane: DVec2,
+    /// On the sphere.
+    pub(super) v: DVec3,
+    /// What makes up for the projection.
+    pub(super) weight: f64,
+}
+
+/// What is known about points from where they lie.
+pub(super) struct Known<'a> {
+    projection: Projection,
+    frame: &'a Frame,
+    inside: &'a Inside,
+    /// By number: the first tells nothing, the last is outside.
+    verdicts: &'a [Cell],
+}
+
+impl<'a> Known<'a> {
+    /// About points that `projection` puts on a cone with this frame and that are to lie `inside`.
+    pub(super) fn new(projection: Projection, frame: &'a Frame, inside: &'a Inside) -> Self {
+        const WITHOUT_CELLS: &[Cell] = &[Cell::Edges, Cell::Inside, Cell::Outside];
+        let verdicts = inside.cells().map_or(WITHOUT_CELLS, Cells::all);
+        Self { projection, frame, inside, verdicts }
+    }
+
+    /// The numbers of the verdicts on points.
+    #[inline(always)]
+    fn numbers<R: Real>(&self, plane: [R; 2], [x, y, z]: [R; 3]) -> R {
+        let above = match (self.inside, self.inside.cells()) {
+            (_, Some(cells)) => cells.number([x, y]),
+            (Inside::Cone, _) => z.all(1.0),
+            (Inside::Outside { axis, cos }, _) => {
+                let to_axis = x * axis.x + y * axis.y + z * axis.z;
+                (-to_axis + *cos).choose(z.all(1.0), z.all(2.0))
+            }
+            (Inside::Polygon(_) | Inside::One(_), None) => z.all(0.0),
+        };
+        let outside = z.all((self.verdicts.len() - 1) as f64);
+        let clearance = self.projection.clearance(plane, z);
+        clearance.choose(z.choose(above, outside), z.all(0.0))
+    }
+}
+
+impl Inside {
+    fn cells(&self) -> Option<&Cells> {
+        match self {
+            Self::Polygon(polygon) => polygon.cells(),
+            Self::Cone | Self::Outside { .. } | Self::One(_) => None,
+        }
+    }
+}
+
+impl Lifted {
+    /// Becomes the points that belong to the region. `ask` returns the unit vectors of those about
+    /// which nothing is known and their weights times cos θ, if they belong to it.
+    pub(super) fn fill(
+        &mut self,
+        points: &mut Points,
+        known: &Known<'_>,
+        ask: impl FnMut(Asked) -> Option<(DVec3, f64)>,
+    ) {
+        let whole = points.count().next_multiple_of(WIDTH);
+        self.v.iter_mut().chain([&mut self.weights]).for_each(|part| part.resize(whole, 0.0));
+        self.count = 0;
+        with_widest(Lifting { points, known, ask, lifted: self });
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The unit vectors and their weights in groups; what fills up the last one means nothing.
+    pub(super) fn groups(&self) -> impl Iterator<Item = ([&[f64; WIDTH]; 3], &[f64; WIDTH])> {
+        let [x, y, z] = self.v.each_ref().map(|part| part.as_chunks().0);
+        let v = x.iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
+        v.zip(self.weights.as_chunks().0).take(self.count.div_ceil(WIDTH))
+    }
+
+    #[inline(always)]
+    fn push(&mut self, v: DVec3, weight: f64) {
+        (self.v[0][self.count], self.v[1][self.count], self.v[2][self.count]) = v.into();
+        self.weights[self.count] = weight;
+        self.count += 1;
+    }
+
+    #[inline(always)]
+    fn push_group(&mut self, v: &[[f64; WIDTH]; 3], weights: &[f64; WIDTH]) {
+        let place = self.count..self.count + WIDTH;
+        for (part, v) in self.v.iter_mut().zip(v) {
+            part[place.clone()].copy_from_slice(v);
+        }
+        self.weights[place].copy_from_slice(weights);
+        self.count += WIDTH;
+    }
+}
+
+struct Lifting<'a, F> {
+    points: &'a mut Points,
+    known: &'a Known<'a>,
+    ask: F,
+    lifted: &'a mut Lifted,
+}
+
+impl<F: FnMut(Asked) -> Option<(DVec3, f64)>> Batch for Lifting<'_, F> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self { points, known, mut ask, lifted } = self;
+        let mut left = points.count();
+        for (px, py) in points.groups() {
+            let plane = [vectors.load(px), vectors.load(py)];
+            let (u, weight) = known.projection.lift(plane[0], plane[1]);
+            let v = known.frame.turn(u);
+            let numbers = vectors.store(known.numbers(plane, v));
+            let mut verdicts = [Cell::Edges; WIDTH];
+            for (verdict, number) in verdicts.iter_mut().zip(numbers) {
+                *verdict = known.verdicts[whole(number)];
+            }
+            let here = left.min(WIDTH);
+            left -= here;
+            if verdicts == [Cell::Outside; WIDTH] {
+                continue;
+            }
+            let projected = vectors.store(weight * v[2]);
+            let v = [vectors.store(v[0]), vectors.store(v[1]), vectors.store(v[2])];
+            if verdicts == [Cell::Inside; WIDTH] && here == WIDTH {
+                lifted.push_group(&v, &projected);
+                continue;
+            }
+            let weight = vectors.store(weight);
+            for k in 0..here {
+                let v = DVec3::new(v[0][k], v[1][k], v[2][k]);
+                let kept = match verdicts[k] {
+                    Cell::Outside => None,
+                    Cell::Inside => Some((v, projected[k])),
+                    Cell::Edges => {
+                        ask(Asked { plane: DVec2::new(px[k], py[k]), v, weight: weight[k] })
+                    }
+                };
+                if let Some((v, weight)) = kept {
+                    lifted.push(v, weight);
+                }
+            }
+        }
+    }
+}
+
+/// The whole number `x` from 0 to 2³² − 1, faster than a conversion of any number.
+#[inline(always)]
+fn whole(x: f64) -> usize {
+    const IN_LAST_BITS: f64 = (1_u64 << 52) as f64;
+    (x + IN_LAST_BITS).to_bits() as u32 as usize
+}
