@@ -16,9 +16,8 @@ pub(crate) struct Polygon {
     cells: Option<Cells>,
 }
 
-/// How many slabs there are at least and at most, and how many per edge: enough for outlines of a
-/// few thousand edges.
-const SLABS: (usize, usize, usize) = (64, 1024, 2);
+/// How many slabs there are at least and at most, and for how many edges one.
+const SLABS: (usize, usize, usize) = (16, 1024, 2);
 /// How many rows of cells there are at least and at most, and for how many points one of each
 /// row and column: to fill the cells costs less than they save.
 const CELLS: (usize, usize, f64) = (16, 128, 3.0);
@@ -55,9 +54,8 @@ impl Edge {
 impl Polygon {
     /// The polygon with these vertices; few or none of them are fine.
     pub(crate) fn new(vertices: Vec<DVec2>) -> Self {
-        let edges: Vec<Edge> = edges(&vertices).collect();
-        let (least, most, per_edge) = SLABS;
-        let slabs = Slabs::new(&edges, (per_edge * edges.len()).clamp(least, most));
+        let (least, most, edges) = SLABS;
+        let slabs = Slabs::new(&vertices, (vertices.len() / edges).clamp(least, most));
         Self { vertices, slabs, cells: None }
     }
 
@@ -66,15 +64,14 @@ impl Polygon {
         let (least, most, points) = CELLS;
         let side = (count as f64 / points).sqrt() as usize;
         if side >= least {
-            let edges: Vec<Edge> = edges(&self.vertices).collect();
-            self.cells = Cells::new(&edges, side.min(most), |p| self.slabs.contain(p));
+            self.cells = Cells::new(&self.vertices, side.min(most), |p| self.contains(p));
         }
         self
     }
 
     /// Whether `p` is inside by the even–odd rule, with NIST's decisions for points on an edge.
     pub(crate) fn contains(&self, p: DVec2) -> bool {
-        self.slabs.contain(p)
+        self.slabs.contain(&self.vertices, p)
     }
 
     /// What is known about points that are far from all edges, whatever the rounding of their
@@ -94,7 +91,7 @@ impl Polygon {
     /// program does not test them as the later of the two.
     pub(crate) fn crossing(&self, all: bool) -> Option<(usize, usize)> {
         let n = self.vertices.len();
-        let edge = |k: usize| Edge { a: self.vertices[(k + n - 1) % n], b: self.vertices[k] };
+        let edge = |k: usize| edge(&self.vertices, (k + n - 1) % n);
         if all {
             let mut pairs = (0..n).flat_map(|j| (j + 2..n).map(move |i| (j, i)));
             return pairs.find(|(j, i)| edge(*j).crosses(&edge(*i)));
@@ -104,10 +101,16 @@ impl Polygon {
     }
 }
 
+/// The edge from vertex `k` to the next one, or to the first.
+#[inline]
+fn edge(vertices: &[DVec2], k: usize) -> Edge {
+    let next = if k + 1 == vertices.len() { 0 } else { k + 1 };
+    Edge { a: vertices[k], b: vertices[next] }
+}
+
 /// The edges in order, the closing one last.
-fn edges(vertices: &[DVec2]) -> impl Iterator<Item = Edge> + '_ {
-    let n = vertices.len();
-    (0..n).map(move |k| Edge { a: vertices[k], b: vertices[(k + 1) % n] })
+fn edges(vertices: &[DVec2]) -> impl Iterator<Item = Edge> + Clone + '_ {
+    (0..vertices.len()).map(|k| edge(vertices, k))
 }
 
 #[cfg(test)]

@@ -6,10 +6,7 @@ use std::ops::RangeInclusive;
 use glam::DVec2;
 use scattering::lanes::Real;
 
-use super::{
-    Edge,
-    slabs::{MARGIN, turns},
-};
+use super::{Edge, edges};
 
 /// Cells in rows and columns over the polygon, and one more on each side.
 #[derive(Clone, Debug)]
@@ -34,23 +31,24 @@ pub(crate) enum Cell {
 }
 
 impl Cells {
-    /// `side` cells in x and in y over the polygon with these edges, where `contain` tells which
+    /// `side` cells in x and in y over the polygon with these vertices, where `contain` tells which
     /// points are inside; nothing for a polygon that is too small or not finite.
     pub(super) fn new(
-        edges: &[Edge],
+        vertices: &[DVec2],
         side: usize,
         contain: impl Fn(DVec2) -> bool,
     ) -> Option<Self> {
-        let vertices = || edges.iter().map(|edge| edge.a);
-        let low = vertices().fold(DVec2::INFINITY, DVec2::min);
-        let high = vertices().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let corner =
+            |start, next: fn(DVec2, DVec2) -> DVec2| vertices.iter().copied().fold(start, next);
+        let low = corner(DVec2::INFINITY, DVec2::min);
+        let high = corner(DVec2::NEG_INFINITY, DVec2::max);
         let cell = (high - low) / side as f64;
-        let is_fine = vertices().all(DVec2::is_finite) && cell.min_element() > SMALLEST;
+        let is_fine = vertices.iter().all(|v| v.is_finite()) && cell.min_element() > SMALLEST;
         is_fine.then(|| {
             let side = side + 2;
             let cells = vec![Cell::Outside; side * side];
             let mut cells = Self { low: low - cell, per: cell.recip(), side, cells };
-            cells.mark(edges);
+            cells.mark(vertices);
             cells.fill(contain);
             cells.cells[0] = Cell::Edges;
             cells
@@ -58,18 +56,18 @@ impl Cells {
     }
 
     /// Marks the cells in which the edges decide.
-    fn mark(&mut self, edges: &[Edge]) {
-        for edge in edges {
+    fn mark(&mut self, vertices: &[DVec2]) {
+        for edge in edges(vertices) {
             let (left, right) = (edge.a.x.min(edge.b.x), edge.a.x.max(edge.b.x));
             for column in self.columns(left, right) {
                 let at = |k: usize| self.low.x + k as f64 / self.per.x;
                 let band = edge.band(at(column) - MARGIN, at(column + 1) + MARGIN);
-                if let Some(band) = band {
-                    self.mark_column(column, self.row(band.from)..=self.row(band.to));
+                if let Some((from, to)) = band {
+                    self.mark_column(column, self.row(from - MARGIN)..=self.row(to + MARGIN));
                 }
             }
         }
-        for turn in turns(edges) {
+        for turn in turns(vertices) {
             for column in self.columns(turn.x, turn.x) {
                 self.mark_column(column, 0..=self.row(turn.y + MARGIN));
             }
@@ -125,6 +123,34 @@ impl Cells {
         &self.cells
     }
 }
+
+impl Edge {
+    /// The lowest and the highest y where it runs between the abscissas `left` and `right`, if it
+    /// does.
+    fn band(&self, left: f64, right: f64) -> Option<(f64, f64)> {
+        let Self { a, b } = self;
+        let (from, to) = (left.max(a.x.min(b.x)), right.min(a.x.max(b.x)));
+        if from > to {
+            return None;
+        }
+        let at = |x: f64| a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)).clamp(0.0, 1.0);
+        let (one, other) = if a.x == b.x { (a.y, b.y) } else { (at(from), at(to)) };
+        Some((one.min(other), one.max(other)))
+    }
+}
+
+/// The vertices whose neighbours lie on the same side of them, or above or below. NIST's rules
+/// count a vertex above a point by one of its two edges, which is the wrong number here.
+fn turns(vertices: &[DVec2]) -> impl Iterator<Item = DVec2> + '_ {
+    let next = edges(vertices).cycle().skip(1);
+    edges(vertices).zip(next).filter_map(|(edge, next)| {
+        let (before, behind) = (edge.b.x - edge.a.x, next.b.x - next.a.x);
+        (!(before * behind > 0.0)).then_some(edge.b)
+    })
+}
+
+/// Closer to an edge than this the edge itself decides: far more than rounding.
+const MARGIN: f64 = 1e-9;
 
 /// Cells are not smaller than this: the margins of edges are to be small parts of them.
 const SMALLEST: f64 = 100.0 * MARGIN;
