@@ -172,9 +172,9 @@ impl<'j> Replay<'j> {
         self.due.look_at(&self.scope);
         let mut next = 0;
         while let Some(at) = self.due.take(next) {
-            self.evaluate_entry(at, &mut listing)?;
-            if let Some(slot) = self.job.entries[at].slot {
-                self.due.look_at_slot(&self.scope, slot);
+            if !self.set_plain_number(at) {
+                self.evaluate_entry(at, &mut listing)?;
+                self.due.look_at(&self.scope);
             }
             next = at + 1;
         }
@@ -230,6 +230,22 @@ impl<'j> Replay<'j> {
             self.scope.set_number(slot, value);
         }
         self.predefined = Some(self.scope.now());
+    }
+
+    /// Evaluates an entry that is a variable for expressions and not a parameter, if it is a number:
+    /// what most entries are. Says whether it is.
+    fn set_plain_number(&mut self, at: usize) -> bool {
+        let entry = &self.job.entries[at];
+        let (Some(slot), Some(expr), None) = (entry.slot, &entry.expr, &entry.parameter) else {
+            return false;
+        };
+        if self.overwritten[at].is_some() {
+            return false;
+        }
+        let Some(x) = self.scope.short_number(expr, &mut self.stack) else { return false };
+        self.scope.set_number(slot, x);
+        self.due.given(&self.scope, at, slot);
+        true
     }
 
     fn evaluate_entry(&mut self, at: usize, listing: &mut Listing) -> Result<(), Fault> {

@@ -54,12 +54,20 @@ pub(crate) struct Scope {
     /// For each slot the change, counted from 1, that gave it its value.
     changed: Vec<u64>,
     changes: u64,
+    /// The slots of the last changes, in order; not more than there are slots.
+    last: Vec<u32>,
     library: Library,
 }
 
 impl Scope {
     pub(crate) fn new(slots: usize, library: Library) -> Self {
-        Self { values: vec![None; slots], changed: vec![0; slots], changes: 0, library }
+        Self {
+            values: vec![None; slots],
+            changed: vec![0; slots],
+            changes: 0,
+            last: Vec::new(),
+            library,
+        }
     }
 
     pub(crate) fn set(&mut self, slot: u32, value: &Value) {
@@ -73,15 +81,19 @@ impl Scope {
     }
 
     fn replace(&mut self, slot: u32, value: Option<Value>) {
+        self.values[slot as usize] = value;
         self.changes += 1;
         self.changed[slot as usize] = self.changes;
-        self.values[slot as usize] = value;
+        if self.last.len() >= self.values.len() {
+            self.last.clear();
+        }
+        self.last.push(slot);
     }
 
     /// [`Scope::set`] of one number.
     pub(crate) fn set_number(&mut self, slot: u32, x: f64) {
-        let held = self.values[slot as usize].as_ref().map(Value::as_slice);
-        if !matches!(held, Some([one]) if one.to_bits() == x.to_bits()) {
+        let held = self.values[slot as usize].as_ref().and_then(Value::single);
+        if held.map(f64::to_bits) != Some(x.to_bits()) {
             self.replace(slot, Some(x.into()));
         }
     }
@@ -90,14 +102,26 @@ impl Scope {
         self.values.get(slot as usize)?.as_ref()
     }
 
+    /// The number that `expr` gives the short way, if it does.
+    pub(crate) fn short_number(&mut self, expr: &Expr, stack: &mut Stack) -> Option<f64> {
+        expr.short_number(self, stack)
+    }
+
     /// The time as the scope counts it: how many changes there were.
     pub(crate) fn now(&self) -> u64 {
         self.changes
     }
 
-    /// The slots that have changed since `then`.
-    pub(crate) fn changed_since(&self, then: u64) -> impl Iterator<Item = usize> {
-        (0..).zip(&self.changed).filter(move |(_, at)| **at > then).map(|(slot, _)| slot)
+    /// Hands the slots that have changed since `then` to `visit`, some of them more than once.
+    pub(crate) fn changed_since(&self, then: u64, mut visit: impl FnMut(u32)) {
+        let count = (self.changes - then) as usize;
+        match self.last.len().checked_sub(count) {
+            Some(first) => self.last[first..].iter().copied().for_each(visit),
+            None => {
+                let slots = (0..).zip(&self.changed).filter(|(_, at)| **at > then);
+                slots.for_each(|(slot, _)| visit(slot));
+            }
+        }
     }
 
     /// Whether none of `slots` has changed since `then`.
@@ -143,6 +167,11 @@ impl expr::Scope for Scope {
         self.values.get(slot as usize)?.as_ref().map(Value::as_slice)
     }
 
+    #[inline]
+    fn number(&self, slot: u32) -> Option<f64> {
+        self.values.get(slot as usize)?.as_ref()?.single()
+    }
+
     fn table(&mut self, file: &str, x: f64, column: i64) -> Result<f64, TableError> {
         self.library.columns(file)?.look_up(x, column)
     }
@@ -169,6 +198,25 @@ mod tests {
 
     use super::*;
     use crate::MemoryFiles;
+
+    #[test]
+    fn changes_are_told_however_many_there_are() {
+        let library = Library::new(Arc::new(MemoryFiles::default()), Dialect::Sound);
+        let mut scope = Scope::new(4, library);
+        for (then, rounds) in [(0, 1), (2, 1), (2, 3), (9, 2), (13, 0)] {
+            for round in 0..rounds {
+                for slot in [3, 1] {
+                    scope.set_number(slot, f64::from(100 * round + slot) + then as f64);
+                }
+            }
+            let mut told = Vec::new();
+            scope.changed_since(then, |slot| told.push(slot));
+            told.sort_unstable();
+            told.dedup();
+            let all = (0..4).filter(|slot| !scope.is_same_since(then, &[*slot]));
+            assert_eq!(told, all.collect::<Vec<_>>(), "since {then}");
+        }
+    }
 
     #[test]
     fn only_another_value_is_a_change() {

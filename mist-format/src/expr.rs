@@ -13,6 +13,7 @@
 mod error;
 mod eval;
 mod functions;
+mod memo;
 mod op;
 mod scalar;
 mod scan;
@@ -94,7 +95,7 @@ impl Expr {
     /// Names that the scope does not know, functions with a wrong number of arguments, files
     /// that cannot be read; under the sound rules vectors where a single number is needed.
     pub fn eval(&self, scope: &mut impl Scope, stack: &mut Stack) -> Result<Value, EvalError> {
-        match self.run_short(scope) {
+        match self.short_number(scope, stack) {
             Some(x) => Ok(x.into()),
             None => stack.run(self, scope).map(|(first, rest)| Value::new(first, rest)),
         }
@@ -105,7 +106,7 @@ impl Expr {
     /// # Errors
     /// As for [`Expr::eval`].
     pub fn number(&self, scope: &mut impl Scope, stack: &mut Stack) -> Result<f64, EvalError> {
-        match self.run_short(scope) {
+        match self.short_number(scope, stack) {
             Some(x) => Ok(x),
             None => {
                 stack.run(self, scope).map(|(first, rest)| rest.last().copied().unwrap_or(first))
@@ -113,8 +114,10 @@ impl Expr {
         }
     }
 
-    fn run_short(&self, scope: &mut impl Scope) -> Option<f64> {
-        self.short.as_ref().and_then(|code| scalar::run(code, self, scope))
+    /// Computes the value the short way, if it is a single number of single numbers and nothing
+    /// fails; else [`Expr::eval`] finds out.
+    pub fn short_number(&self, scope: &mut impl Scope, stack: &mut Stack) -> Option<f64> {
+        self.short.as_ref().and_then(|code| scalar::run(code, self, scope, &mut stack.memo))
     }
 }
 

@@ -68,6 +68,11 @@ pub trait Brdf: Send + Sync {
         false
     }
 
+    /// Whether a matrix takes less time than to find it where it was kept.
+    fn is_quick(&self) -> bool {
+        false
+    }
+
     /// The basis of the model's own matrices.
     fn native_basis(&self) -> Basis {
         Basis::Psps
@@ -247,6 +252,11 @@ impl Model {
     /// What every model has.
     pub fn common(&self) -> &Common {
         self.brdf.common()
+    }
+
+    /// Whether a matrix takes less time than to find it where it was kept.
+    pub fn is_quick(&self) -> bool {
+        self.brdf.is_quick()
     }
 
     /// Cones with sharp rims into which light of one beam goes; none at and below the horizon.

@@ -3,15 +3,17 @@
 
 use mist_format::expr::Expr;
 
-use crate::{Job, scope::Scope};
+use crate::{Job, job::Entry, scope::Scope};
 
 /// The entries that are due.
 pub(super) struct Due {
-    entries: Vec<bool>,
+    entries: Marks,
     /// Entries whose text a loop has replaced: what they read is not known.
     always: Vec<bool>,
     /// For each slot the entries that give or read it.
     concerned: Vec<Vec<usize>>,
+    /// Whether an entry reads the slot that it gives.
+    counts_on: Vec<bool>,
     /// Changes of the scope up to this one are taken into account.
     seen: u64,
 }
@@ -29,41 +31,79 @@ impl Due {
             }
         }
         let count = job.entries.len();
-        Self { entries: vec![true; count], always: vec![false; count], concerned, seen: 0 }
+        let mut entries = Marks(vec![0; count.div_ceil(64)]);
+        (0..count).for_each(|at| entries.mark(at));
+        let reads_its_own = |entry: &Entry| {
+            entry.expr.iter().flat_map(Expr::slots).any(|slot| Some(*slot) == entry.slot)
+        };
+        let counts_on = job.entries.iter().map(reads_its_own).collect();
+        Self { entries, always: vec![false; count], concerned, counts_on, seen: 0 }
     }
 
     /// The entry `at` has to be evaluated.
     pub(super) fn add(&mut self, at: usize) {
-        self.entries[at] = true;
+        self.entries.mark(at);
     }
 
     /// A loop has written the entry `at`: it has to be evaluated, and in every step if it is an
     /// expression now.
     pub(super) fn written(&mut self, at: usize, is_expression: bool) {
-        self.entries[at] = true;
+        self.entries.mark(at);
         self.always[at] = is_expression;
     }
 
     /// Adds the entries that are concerned by what has changed in `scope`.
     pub(super) fn look_at(&mut self, scope: &Scope) {
-        for slot in scope.changed_since(self.seen) {
-            self.concerned[slot].iter().for_each(|at| self.entries[*at] = true);
+        if scope.now() > self.seen {
+            scope.changed_since(self.seen, |slot| {
+                self.concerned[slot as usize].iter().for_each(|at| self.entries.mark(*at));
+            });
+            self.seen = scope.now();
         }
-        self.seen = scope.now();
     }
 
-    /// [`Due::look_at`], where nothing but `slot` may have changed.
-    pub(super) fn look_at_slot(&mut self, scope: &Scope, slot: u32) {
+    /// [`Due::look_at`], where nothing but `slot` may have changed, by the entry `giver`.
+    pub(super) fn given(&mut self, scope: &Scope, giver: usize, slot: u32) {
         if scope.now() > self.seen {
-            self.concerned[slot as usize].iter().for_each(|at| self.entries[*at] = true);
+            for at in &self.concerned[slot as usize] {
+                if *at != giver || self.counts_on[giver] {
+                    self.entries.mark(*at);
+                }
+            }
             self.seen = scope.now();
         }
     }
 
     /// The first entry from `next` on that is due.
     pub(super) fn take(&mut self, next: usize) -> Option<usize> {
-        let at = next + self.entries[next..].iter().position(|is_due| *is_due)?;
-        self.entries[at] = self.always[at];
+        let at = self.entries.first(next)?;
+        if !self.always[at] {
+            self.entries.unmark(at);
+        }
         Some(at)
+    }
+}
+
+/// Marks on entries, 64 to a word.
+struct Marks(Vec<u64>);
+
+impl Marks {
+    fn mark(&mut self, at: usize) {
+        self.0[at / 64] |= 1 << (at % 64);
+    }
+
+    fn unmark(&mut self, at: usize) {
+        self.0[at / 64] &= !(1 << (at % 64));
+    }
+
+    /// The first marked entry from `next` on.
+    fn first(&self, next: usize) -> Option<usize> {
+        let mut word = next / 64;
+        let mut here = self.0.get(word)? & (u64::MAX << (next % 64));
+        while here == 0 {
+            word += 1;
+            here = *self.0.get(word)?;
+        }
+        Some(word * 64 + here.trailing_zeros() as usize)
     }
 }

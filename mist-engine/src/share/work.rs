@@ -331,8 +331,10 @@ impl<'a> Shared<'a> {
             let fault = match result {
                 Ok((found, evaluations)) => {
                     spent += evaluations as f64;
-                    todo.found[piece.found] = found.clone();
-                    self.integrals.insert(piece.key, found, 1);
+                    if piece.is_worth_keeping() {
+                        self.integrals.insert(piece.key, found.clone(), 1);
+                    }
+                    todo.found[piece.found] = found;
                     None
                 }
                 Err(Undone::Stopped) => return Err(Failure::Cancelled),
@@ -415,6 +417,12 @@ impl<'a> Shared<'a> {
 }
 
 impl Work {
+    /// Whether a later block should find the result: not the only direction of a quick model.
+    fn is_worth_keeping(&self) -> bool {
+        let is_quick = || self.cell.get().is_ok_and(|built| built.model.is_quick());
+        !(matches!(self.place, Place::Point(..)) && is_quick())
+    }
+
     /// The Mueller integral, and how many evaluations of the model it took.
     fn compute(
         &self,

@@ -1,5 +1,6 @@
 //! Running the postfix program of an expression.
 
+use super::memo::Memo;
 use super::op::Action;
 use super::{EvalError, EvalErrorKind, Expr};
 use crate::number;
@@ -9,6 +10,14 @@ use crate::table::TableError;
 pub trait Scope {
     /// The elements of the variable in this slot (see [`Expr::bind`]), if it is defined.
     fn variable(&self, slot: u32) -> Option<&[f64]>;
+
+    /// The number in this slot, if it holds a single one.
+    fn number(&self, slot: u32) -> Option<f64> {
+        match self.variable(slot) {
+            Some(&[one]) => Some(one),
+            _ => None,
+        }
+    }
 
     /// The value of column `column` (1 = the abscissa) of a table at `x`.
     ///
@@ -37,6 +46,7 @@ pub struct Stack {
     lists: Vec<f64>,
     frames: Vec<Frame>,
     arguments: Vec<f64>,
+    pub(super) memo: Memo,
 }
 
 #[derive(Clone, Copy, Debug)]

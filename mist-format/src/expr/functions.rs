@@ -123,6 +123,11 @@ impl Function {
         }
     }
 
+    /// Whether it is a function of one argument that takes longer than to look its value up.
+    pub(super) fn is_slow(self) -> bool {
+        self.arity() == 1 && !matches!(self, Self::Sqrt | Self::Abs | Self::Not)
+    }
+
     /// The value of a function of two arguments.
     pub(super) fn of_two(self, a: f64, b: f64) -> f64 {
         const DEGREE: f64 = std::f64::consts::PI / 180.0;

@@ -5,6 +5,7 @@
 //! register. The general machine takes over wherever that does not hold, and finds the errors.
 
 use super::eval::{Scope, signed};
+use super::memo::Memo;
 use super::op::{Action, Op, Step};
 use super::{Expr, Function};
 use crate::number::whole_number;
@@ -29,6 +30,8 @@ pub(super) enum Code {
     WithVariable(Op, u32),
     /// A function of the top.
     One(Function),
+    /// A function of the top whose values are worth remembering.
+    Slow(Function),
     /// A function of the number below the top and the top.
     Two(Function),
     /// The same with three.
@@ -95,6 +98,7 @@ impl Writer<'_> {
                 let function = function?;
                 self.close(function.arity())?;
                 self.code.push(match function.arity() {
+                    1 if function.is_slow() => Code::Slow(function),
                     1 => Code::One(function),
                     2 => Code::Two(function),
                     _ => Code::Three(function),
@@ -162,7 +166,12 @@ impl Writer<'_> {
 }
 
 /// Runs a short program; none where a name is unknown or holds a vector, or a look-up fails.
-pub(super) fn run(code: &[Code], expr: &Expr, scope: &mut impl Scope) -> Option<f64> {
+pub(super) fn run(
+    code: &[Code],
+    expr: &Expr,
+    scope: &mut impl Scope,
+    memo: &mut Memo,
+) -> Option<f64> {
     let mut stack = [0.0; DEPTH];
     let (mut top, mut height) = (f64::NAN, 0);
     for code in code {
@@ -185,6 +194,7 @@ pub(super) fn run(code: &[Code], expr: &Expr, scope: &mut impl Scope) -> Option<
             Code::WithNumber(op, x) => top = op.apply(top, x),
             Code::WithVariable(op, name) => top = op.apply(top, variable(name, expr, scope)?),
             Code::One(function) => top = function.of_one(top),
+            Code::Slow(function) => top = memo.value(function, top),
             Code::Two(function) => {
                 height -= 1;
                 top = function.of_two(stack[height], top);
@@ -209,9 +219,7 @@ pub(super) fn run(code: &[Code], expr: &Expr, scope: &mut impl Scope) -> Option<
     Some(top)
 }
 
+#[inline]
 fn variable(name: u32, expr: &Expr, scope: &impl Scope) -> Option<f64> {
-    match scope.variable(expr.slots[name as usize]) {
-        Some(&[x]) => Some(x),
-        _ => None,
-    }
+    scope.number(expr.slots[name as usize])
 }

@@ -29,6 +29,15 @@ impl Value {
         }
     }
 
+    /// The number, if it is a single one.
+    #[inline]
+    pub fn single(&self) -> Option<f64> {
+        match self.0 {
+            Repr::Scalar([one]) => Some(one),
+            Repr::Vector(_) => None,
+        }
+    }
+
     /// The first element.
     pub fn first(&self) -> f64 {
         self.as_slice()[0]

@@ -22,8 +22,25 @@ pub(super) struct Digits {
 #[repr(align(16))]
 struct Ascii([u8; 32]);
 
+/// A number as text.
+pub(super) struct Short {
+    ascii: Ascii,
+    count: usize,
+}
+
+impl Short {
+    pub(super) fn as_str(&self) -> &str {
+        self.ascii.first(self.count)
+    }
+}
+
 impl Ascii {
     const ZEROS: Self = Self([b'0'; 32]);
+
+    /// The first `count` of them as text.
+    fn first(&self, count: usize) -> &str {
+        &std::str::from_utf8(&self.0).unwrap_or_default()[..count]
+    }
 }
 
 impl Digits {
@@ -59,10 +76,29 @@ impl Digits {
         })
     }
 
+    /// d.ddde+05, with a point if something follows or `point` says so; none for exponents of three
+    /// digits.
+    pub(super) fn scientific(&self, point: bool) -> Option<Short> {
+        let size = self.exponent.unsigned_abs() as u8;
+        if self.exponent.unsigned_abs() >= 100 {
+            return None;
+        }
+        let (digits, mut text) = (&self.ascii.0, Ascii::ZEROS);
+        text.0[0] = digits[0];
+        text.0[1] = b'.';
+        // With all that may follow of 17 digits: the lengths are known.
+        text.0[2..MOST + 1].copy_from_slice(&digits[1..MOST]);
+        let end = if self.count > 1 || point { self.count + 1 } else { 1 };
+        text.0[end] = b'e';
+        text.0[end + 1] = if self.exponent < 0 { b'-' } else { b'+' };
+        text.0[end + 2] = b'0' + size / 10;
+        text.0[end + 3] = b'0' + size % 10;
+        Some(Short { ascii: text, count: end + 4 })
+    }
+
     /// The digits as text.
     pub(super) fn as_str(&self) -> &str {
-        // The bytes are ASCII digits.
-        &std::str::from_utf8(&self.ascii.0).unwrap_or_default()[..self.count]
+        self.ascii.first(self.count)
     }
 }
 

@@ -98,6 +98,18 @@ pub(super) fn with_digits(x: f64, count: usize, write: impl FnOnce(&str, i32)) {
     write(&mantissa.replace('.', ""), exponent.parse().unwrap_or(0));
 }
 
+/// Appends a finite x ≥ 0 as d.ddde+05 with `count` digits; `point` writes a point even where
+/// nothing follows.
+pub(super) fn push_scientific(text: &mut String, x: f64, count: usize, point: bool) {
+    match Digits::of(x, count).and_then(|digits| digits.scientific(point)) {
+        Some(short) => text.push_str(short.as_str()),
+        None => with_digits(x, count, |all, exponent| {
+            push_pointed(text, all, 1, point);
+            push_exponent(text, exponent);
+        }),
+    }
+}
+
 /// Appends `digits` with a point behind the first `whole` of them, filled up with zeros; `point`
 /// writes it even where nothing follows.
 pub(super) fn push_pointed(text: &mut String, digits: &str, whole: usize, point: bool) {

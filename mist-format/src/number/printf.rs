@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::digits::Digits;
-use super::general::{odd, push_exponent, push_finite, push_pointed, with_digits};
+use super::general::{odd, push_finite, push_pointed, push_scientific};
 
 /// NIST prints into a buffer of 256 characters; longer texts are cut.
 const LONGEST: usize = 255;
@@ -204,10 +204,7 @@ impl Conversion {
         let digits = self.precision.unwrap_or(6);
         match self.letter.to_ascii_lowercase() {
             _ if !x.is_finite() => text.push_str(odd(x)),
-            b'e' => with_digits(magnitude, digits + 1, |all, exponent| {
-                push_pointed(text, all, 1, self.alternate);
-                push_exponent(text, exponent);
-            }),
+            b'e' => push_scientific(text, magnitude, digits + 1, self.alternate),
             b'f' => self.push_fixed(text, magnitude, digits),
             b'a' => text.push_str(&hexadecimal(magnitude, self.precision, self.alternate)),
             _ => push_finite(text, magnitude, digits.max(1), self.alternate),

@@ -14,6 +14,9 @@ pub(crate) struct WholeFile {
     file: BufWriter<NamedTempFile>,
 }
 
+/// Bytes that are written at a time.
+const BUFFER: usize = 1 << 16;
+
 impl WholeFile {
     /// Begins the file `path` in a folder that exists.
     ///
@@ -38,7 +41,7 @@ impl WholeFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let file = builder.tempfile_in(folder)?;
-        Ok(Self { path: path.to_owned(), file: BufWriter::new(file) })
+        Ok(Self { path: path.to_owned(), file: BufWriter::with_capacity(BUFFER, file) })
     }
 
     /// Writes the whole of `text` to the file `path`.
@@ -81,6 +84,10 @@ impl WholeFile {
 impl Write for WholeFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.file.write(bytes)
+    }
+
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.file.write_all(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {

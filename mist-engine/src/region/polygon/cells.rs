@@ -8,7 +8,8 @@ use scattering::lanes::Real;
 
 use super::{Edge, edges};
 
-/// Cells in rows and columns over the polygon, and one more on each side.
+/// Cells in rows and columns over the polygon, and one and a half more on each side: those of the
+/// margin hold no vertex.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
     low: DVec2,
@@ -45,9 +46,9 @@ impl Cells {
         let cell = (high - low) / side as f64;
         let is_fine = vertices.iter().all(|v| v.is_finite()) && cell.min_element() > SMALLEST;
         is_fine.then(|| {
-            let side = side + 2;
+            let side = side + 3;
             let cells = vec![Cell::Outside; side * side];
-            let mut cells = Self { low: low - cell, per: cell.recip(), side, cells };
+            let mut cells = Self { low: low - 1.5 * cell, per: cell.recip(), side, cells };
             cells.mark(vertices);
             cells.fill(contain);
             cells.cells[0] = Cell::Edges;

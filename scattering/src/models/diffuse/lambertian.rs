@@ -59,6 +59,10 @@ impl Brdf for Lambertian {
     fn mueller(&self, _: &Incidence, _: &Direction) -> Mueller {
         Mueller::depolarizer(self.reflectance * FRAC_1_PI)
     }
+
+    fn is_quick(&self) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]

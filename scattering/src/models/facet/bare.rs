@@ -371,6 +371,10 @@ impl Brdf for Facet {
     fn is_coherent(&self) -> bool {
         true
     }
+
+    fn is_quick(&self) -> bool {
+        self.films.is_bare()
+    }
 }
 
 #[cfg(test)]

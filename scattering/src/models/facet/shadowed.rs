@@ -91,4 +91,8 @@ impl Brdf for ShadowedFacet {
     fn is_coherent(&self) -> bool {
         true
     }
+
+    fn is_quick(&self) -> bool {
+        self.facet.is_quick()
+    }
 }
