@@ -9,7 +9,10 @@ mod due;
 mod sending;
 mod settings;
 
-use std::{collections::BTreeSet, sync::Arc};
+use std::{
+    collections::{BTreeSet, HashMap},
+    sync::Arc,
+};
 
 use aperture::{Aperture, stokes};
 use due::Due;
@@ -25,7 +28,7 @@ use settings::Settings;
 use crate::{
     Job,
     fault::{Fault, placed},
-    job::Entry,
+    job::{Entry, IntegralPlan, Setting},
     parameters::Parameters,
     quirk::{Quirk, dialect},
     region::Apertures,
@@ -71,6 +74,8 @@ pub struct Replay<'j> {
     incident: Option<Known<Stokes>>,
     /// What the expressions of the integrals' settings gave last.
     settings: Vec<Vec<Option<Known<Value>>>>,
+    /// For each setting an earlier one, by integral and number, with the same expression.
+    twins: Vec<Vec<Option<(usize, usize)>>>,
     integrals: Option<Known<Arc<Vec<Integral>>>>,
     /// The incident light with which they were made.
     incident_before: Option<Stokes>,
@@ -113,6 +118,7 @@ impl<'j> Replay<'j> {
                 .iter()
                 .map(|plan| plan.settings.iter().map(|_| None).collect())
                 .collect(),
+            twins: twins(job),
             integrals: None,
             incident_before: None,
             values: None,
@@ -466,20 +472,41 @@ impl<'j> Replay<'j> {
     ) -> Result<Integral, Fault> {
         let plan = &self.job.integrals[number];
         let mut aperture = Aperture::under(incident);
-        for (setting, known) in plan.settings.iter().zip(&mut self.settings[number]) {
-            let holds = |known: &Known<Value>| known.holds(&self.scope, setting.expr.slots());
-            if !known.as_ref().is_some_and(holds) {
-                let value = self
-                    .scope
-                    .value(&setting.expr, &mut self.stack)
-                    .map_err(|error| unknown(self.job, &self.scope, &setting.text, &error))?;
-                *known = Some(Known::new(&self.scope, value));
+        for (at, setting) in plan.settings.iter().enumerate() {
+            let slots = setting.expr.slots();
+            let known = |place: (usize, usize)| self.settings[place.0][place.1].as_ref();
+            let holds = |known: &&Known<Value>| known.holds(&self.scope, slots);
+            if !known((number, at)).is_some_and(|known| holds(&known)) {
+                let twin = self.twins[number][at].and_then(known).filter(holds);
+                let value = match twin {
+                    Some(twin) => twin.value.clone(),
+                    None => self
+                        .scope
+                        .value(&setting.expr, &mut self.stack)
+                        .map_err(|error| unknown(self.job, &self.scope, &setting.text, &error))?,
+                };
+                self.settings[number][at] = Some(Known::new(&self.scope, value));
             }
-            let value = &known.as_ref().expect("known by now").value;
-            aperture.set(setting.key, value, &setting.text)?;
+            let known = self.settings[number][at].as_ref().expect("known by now");
+            aperture.set(setting.key, &known.value, &setting.text)?;
         }
         Ok(aperture.integral(plan, sampling, demand))
     }
+}
+
+/// For each setting of the integrals the first one, by integral and number, that has the same
+/// expression, if it is another one.
+fn twins(job: &Job) -> Vec<Vec<Option<(usize, usize)>>> {
+    let mut first = HashMap::new();
+    let mut twin = |place: (usize, usize), setting: &Setting| {
+        let found = *first.entry(setting.expr.text().to_owned()).or_insert(place);
+        (found != place).then_some(found)
+    };
+    let of = |(number, plan): (usize, &IntegralPlan)| {
+        let settings = plan.settings.iter().enumerate();
+        settings.map(|(at, setting)| twin((number, at), setting)).collect()
+    };
+    job.integrals.iter().enumerate().map(of).collect()
 }
 
 fn missing_required(program: &Program, name: &str) -> Fault {

@@ -8,6 +8,7 @@ use mist_format::{
 };
 use scattering::Stokes;
 use smallvec::SmallVec;
+use smol_str::SmolStr;
 
 use crate::{
     parameters::Parameters,
@@ -97,8 +98,8 @@ pub(crate) type Cells = SmallVec<[Cell; 4]>;
 /// What a loop column shows.
 #[derive(Clone, Debug)]
 pub(crate) enum Cell {
-    /// Text as it is.
-    Text(Arc<str>),
+    /// Text as it is; a short one, as nearly all are, is copied without counting who holds it.
+    Text(SmolStr),
     /// An expression of a LIST file, evaluated with the new variables.
     Expression(Arc<Expr>),
 }

@@ -3,8 +3,6 @@
 //! The value is accumulated: a, b and s are evaluated whenever they are used, with the
 //! variables of the step that just ended. The first value is never tested.
 
-use std::sync::Arc;
-
 use mist_format::{
     Diagnostic,
     expr::Expr,
@@ -185,9 +183,9 @@ impl ForState {
 impl Made {
     fn of(value: f64, is_text: bool) -> Self {
         let number = if is_text { None } else { number::reread(value) };
-        let text = || Arc::<str>::from(number::loop_text(value));
-        let cell = if is_text { Cell::Text(text()) } else { Cell::of(value) };
-        let content = number.map_or_else(|| Content::Text(text()), Content::Number);
+        let text = || number::loop_text(value);
+        let cell = if is_text { Cell::Text(text().into()) } else { Cell::of(value) };
+        let content = number.map_or_else(|| Content::Text(text().into()), Content::Number);
         Self { bits: value.to_bits(), content, cell }
     }
 }

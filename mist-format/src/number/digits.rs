@@ -46,6 +46,7 @@ impl Ascii {
 impl Digits {
     /// The first `count` digits of a finite x ≥ 0, rounded to nearest; none if that needs the
     /// slow way.
+    #[inline]
     pub(super) fn of(x: f64, count: usize) -> Option<Self> {
         if !(1..=MOST).contains(&count) {
             return None;
@@ -78,6 +79,7 @@ impl Digits {
 
     /// d.ddde+05, with a point if something follows or `point` says so; none for exponents of three
     /// digits.
+    #[inline]
     pub(super) fn scientific(&self, point: bool) -> Option<Short> {
         let size = self.exponent.unsigned_abs() as u8;
         if self.exponent.unsigned_abs() >= 100 {
@@ -245,6 +247,7 @@ const fn fifth(words: [u64; 3]) -> [u64; 3] {
 }
 
 /// The last `count` decimal digits of `whole`.
+#[inline]
 fn ascii(mut whole: u64, count: usize) -> Ascii {
     let Ascii(mut ascii) = Ascii::ZEROS;
     let mut at = count;
