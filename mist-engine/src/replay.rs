@@ -138,6 +138,7 @@ impl<'j> Replay<'j> {
     /// # Errors
     ///
     /// The first thing that is wrong with the program in this step, and where.
+    #[inline]
     pub fn next_step(&mut self) -> Result<Option<Step>, Fault> {
         if self.ended || !self.move_loops()? {
             self.ended = true;
@@ -314,6 +315,7 @@ impl<'j> Replay<'j> {
         &self.job.program.variables[entry.variable].value
     }
 
+    #[inline]
     fn step(&mut self, listing: Listing) -> Result<Step, Fault> {
         let job = self.job;
         let required = &job.required;

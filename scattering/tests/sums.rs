@@ -1,11 +1,15 @@
 //! Sums of Mueller matrices over directions, as detectors make them.
 
 use scattering::{
-    Basis, Direction, Incidence, Mode, Model, Mueller, Node, Value, models, polarization::Weights,
+    Basis, Direction, Incidence, Mode, Model, Mueller, Node, Value, models, optics::Index,
+    polarization::Weights,
 };
 
 fn model(name: &str, mode: Mode, side: i32) -> Model {
-    let node = Node::with_defaults(&models::find(name).unwrap().class, mode);
+    let mut node = Node::with_defaults(&models::find(name).unwrap().class, mode);
+    if side > 0 {
+        node = node.with("substrate", Value::Index(Index::constant(1.5, 0.0))).unwrap();
+    }
     models::build(&node.with("type", Value::Integer(side)).unwrap()).unwrap()
 }
 
