@@ -76,7 +76,8 @@ fn a_sum_is_that_of_the_matrices_of_its_directions() {
                 let weights = weights(directions.len());
                 let mut matrices = vec![Mueller::ZERO; directions.len()];
                 model.evaluate(&incidence, &directions, basis, &mut matrices);
-                let sign = if side == 1 { -1.0 } else { 1.0 };
+                // Into the substrate, from above and from below.
+                let sign = if matches!(side, 1 | 2) { -1.0 } else { 1.0 };
                 let want = expected(&matrices, &weights, sign);
                 let got = model.sum(&incidence, &directions, &weights, basis);
                 // Rounding of a few hundred terms in another order.
