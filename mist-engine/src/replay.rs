@@ -138,12 +138,12 @@ impl<'j> Replay<'j> {
     /// # Errors
     ///
     /// The first thing that is wrong with the program in this step, and where.
-    #[inline]
     pub fn next_step(&mut self) -> Result<Option<Step>, Fault> {
         if self.ended || !self.move_loops()? {
             self.ended = true;
             return Ok(None);
         }
+        self.write_loops()?;
         let listing = self.evaluate_entries()?;
         let step = self.step(listing)?;
         self.leave_step();
@@ -160,9 +160,12 @@ impl<'j> Replay<'j> {
             }
             // The first step sets what does not change, the last one what has changed.
             if self.index == 0 || self.index + 1 == to {
+                self.write_loops()?;
                 self.evaluate_entries()?;
+                self.leave_step();
+            } else {
+                self.index += 1;
             }
-            self.leave_step();
         }
         Ok(())
     }
@@ -201,6 +204,7 @@ impl<'j> Replay<'j> {
         self.sweep.as_ref().map(|sweep| sweep.counts().to_vec()).unwrap_or_default()
     }
 
+    /// Goes to the next combination of loop values; false after the last one.
     fn move_loops(&mut self) -> Result<bool, Fault> {
         let mut context = Context {
             scope: &mut self.scope,
@@ -208,22 +212,31 @@ impl<'j> Replay<'j> {
             names: &self.job.names,
             mode: self.job.options.mode,
         };
-        let goes_on = match &mut self.sweep {
+        match &mut self.sweep {
+            Some(sweep) => sweep.advance(&mut context),
             None => {
                 self.sweep = Some(Sweep::start(&self.job.loops, &mut context)?);
-                true
-            }
-            Some(sweep) => sweep.advance(&mut context)?,
-        };
-        if goes_on && let Some(sweep) = &mut self.sweep {
-            for written in sweep.take_written() {
-                self.entries[written.entry] = None;
-                self.due.written(written.entry, matches!(written.content, Content::Text(_)));
-                self.overwritten[written.entry] =
-                    Some(Overwritten { content: written.content, expr: None });
+                Ok(true)
             }
         }
-        Ok(goes_on)
+    }
+
+    /// Writes what the loops say into their entries.
+    fn write_loops(&mut self) -> Result<(), Fault> {
+        let mut context = Context {
+            scope: &mut self.scope,
+            stack: &mut self.stack,
+            names: &self.job.names,
+            mode: self.job.options.mode,
+        };
+        let Some(sweep) = &mut self.sweep else { return Ok(()) };
+        for written in sweep.write(&mut context)? {
+            self.entries[written.entry] = None;
+            self.due.written(written.entry, matches!(written.content, Content::Text(_)));
+            self.overwritten[written.entry] =
+                Some(Overwritten { content: written.content, expr: None });
+        }
+        Ok(())
     }
 
     fn set_predefined(&mut self) {
@@ -315,7 +328,6 @@ impl<'j> Replay<'j> {
         &self.job.program.variables[entry.variable].value
     }
 
-    #[inline]
     fn step(&mut self, listing: Listing) -> Result<Step, Fault> {
         let job = self.job;
         let required = &job.required;

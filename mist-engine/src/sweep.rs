@@ -77,7 +77,11 @@ pub(crate) enum LoopState {
 pub(crate) struct Sweep<'j> {
     plans: &'j [LoopPlan],
     states: Vec<LoopState>,
-    /// Texts written since they were last taken.
+    /// The first loop that has moved since the loops were last written; all behind it have too.
+    moved: usize,
+    /// Whether the loops were never written.
+    is_new: bool,
+    /// What was written last.
     written: Vec<Written>,
     /// How often each loop was advanced since it was reset.
     counts: Vec<u64>,
@@ -86,33 +90,22 @@ pub(crate) struct Sweep<'j> {
 impl<'j> Sweep<'j> {
     /// Every loop at its first value.
     pub(crate) fn start(plans: &'j [LoopPlan], context: &mut Context<'_>) -> Result<Self, Fault> {
-        let mut sweep =
-            Self { plans, states: Vec::new(), written: Vec::new(), counts: vec![0; plans.len()] };
-        for plan in plans {
-            let state = match plan {
-                LoopPlan::For(plan) => {
-                    LoopState::For(ForState::start(plan, context, &mut sweep.written)?)
-                }
-                LoopPlan::List(plan) => {
-                    LoopState::List(ListState::start(plan, context, &mut sweep.written)?)
-                }
-            };
-            sweep.states.push(state);
-        }
-        Ok(sweep)
+        let start = |plan: &LoopPlan| match plan {
+            LoopPlan::For(plan) => ForState::start(plan, context).map(LoopState::For),
+            LoopPlan::List(_) => Ok(LoopState::List(ListState::start())),
+        };
+        let states = plans.iter().map(start).collect::<Result<_, _>>()?;
+        let counts = vec![0; plans.len()];
+        Ok(Self { plans, states, moved: 0, is_new: true, written: Vec::new(), counts })
     }
 
     /// Goes to the next combination; false after the last one.
     pub(crate) fn advance(&mut self, context: &mut Context<'_>) -> Result<bool, Fault> {
         for at in (0..self.plans.len()).rev() {
-            let written = &mut self.written;
+            self.moved = self.moved.min(at);
             let inside = match (&self.plans[at], &mut self.states[at]) {
-                (LoopPlan::For(plan), LoopState::For(state)) => {
-                    state.advance(plan, context, written)?
-                }
-                (LoopPlan::List(plan), LoopState::List(state)) => {
-                    state.advance(plan, context, written)?
-                }
+                (LoopPlan::For(plan), LoopState::For(state)) => state.advance(plan, context)?,
+                (LoopPlan::List(plan), LoopState::List(state)) => state.advance(plan),
                 _ => false,
             };
             if inside {
@@ -121,21 +114,35 @@ impl<'j> Sweep<'j> {
             }
             self.counts[at] = 0;
             match (&self.plans[at], &mut self.states[at]) {
-                (LoopPlan::For(plan), LoopState::For(state)) => {
-                    state.restart(plan, context, written)?;
-                }
-                (LoopPlan::List(plan), LoopState::List(state)) => {
-                    *state = ListState::start(plan, context, written)?;
-                }
+                (LoopPlan::For(plan), LoopState::For(state)) => state.restart(plan, context)?,
+                (LoopPlan::List(_), LoopState::List(state)) => *state = ListState::start(),
                 _ => {}
             }
         }
         Ok(false)
     }
 
-    /// What the loops have written into entries since the last call, oldest first.
-    pub(crate) fn take_written(&mut self) -> std::vec::Drain<'_, Written> {
-        self.written.drain(..)
+    /// What the loops that have moved since the last call write into entries: in the beginning as
+    /// they are declared, later the last one first, as they have moved.
+    pub(crate) fn write(
+        &mut self,
+        context: &mut Context<'_>,
+    ) -> Result<std::vec::Drain<'_, Written>, Fault> {
+        let (first, count) = (self.moved, self.plans.len());
+        for at in first..count {
+            let at = if self.is_new { at } else { count - 1 - (at - first) };
+            match (&self.plans[at], &mut self.states[at]) {
+                (LoopPlan::For(plan), LoopState::For(state)) => {
+                    state.write(plan, &mut self.written);
+                }
+                (LoopPlan::List(plan), LoopState::List(state)) => {
+                    state.write(plan, context, &mut self.written)?;
+                }
+                _ => {}
+            }
+        }
+        (self.moved, self.is_new) = (count, false);
+        Ok(self.written.drain(..))
     }
 
     /// The loop columns of the current step: the last declared loop first.

@@ -87,11 +87,7 @@ fn bound(
 }
 
 impl ForState {
-    pub(crate) fn start(
-        plan: &ForPlan,
-        context: &mut Context<'_>,
-        written: &mut Vec<Written>,
-    ) -> Result<Self, Fault> {
+    pub(crate) fn start(plan: &ForPlan, context: &mut Context<'_>) -> Result<Self, Fault> {
         let mut state = Self {
             value: f64::NAN,
             fraction: 0.0,
@@ -100,7 +96,7 @@ impl ForState {
             made: Vec::new(),
             bounds: Bounds::default(),
         };
-        state.restart(plan, context, written)?;
+        state.restart(plan, context)?;
         Ok(state)
     }
 
@@ -109,11 +105,9 @@ impl ForState {
         &mut self,
         plan: &ForPlan,
         context: &mut Context<'_>,
-        written: &mut Vec<Written>,
     ) -> Result<(), Fault> {
         self.value = bound(&mut self.bounds.from, (&plan.statement.from, &plan.from), context)?;
         (self.fraction, self.at) = (0.0, 0);
-        self.write(plan, written);
         Ok(())
     }
 
@@ -122,7 +116,6 @@ impl ForState {
         &mut self,
         plan: &ForPlan,
         context: &mut Context<'_>,
-        written: &mut Vec<Written>,
     ) -> Result<bool, Fault> {
         let before = self.value;
         let by = bound(&mut self.bounds.by, (&plan.statement.by, &plan.by), context)?;
@@ -147,10 +140,7 @@ impl ForState {
                 return Err(endless(plan, from, to, by));
             }
         }
-        if inside {
-            self.at += 1;
-            self.write(plan, written);
-        }
+        self.at += usize::from(inside);
         Ok(inside)
     }
 
@@ -163,7 +153,8 @@ impl ForState {
         self.fraction
     }
 
-    fn write(&mut self, plan: &ForPlan, written: &mut Vec<Written>) {
+    /// Writes the value into its entry and its column.
+    pub(crate) fn write(&mut self, plan: &ForPlan, written: &mut Vec<Written>) {
         let bits = self.value.to_bits();
         let before = self.made.get(self.at).filter(|made| made.bits == bits).cloned();
         let made = before.unwrap_or_else(|| {

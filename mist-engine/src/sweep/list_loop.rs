@@ -43,29 +43,15 @@ pub(crate) struct ListState {
 }
 
 impl ListState {
-    pub(crate) fn start(
-        plan: &ListPlan,
-        context: &mut Context<'_>,
-        written: &mut Vec<Written>,
-    ) -> Result<Self, Fault> {
-        let mut state = Self { row: 0, cells: Vec::new() };
-        state.activate(plan, context, written)?;
-        Ok(state)
+    /// At the first row.
+    pub(crate) fn start() -> Self {
+        Self { row: 0, cells: Vec::new() }
     }
 
     /// Goes to the next row; false behind the last one.
-    pub(crate) fn advance(
-        &mut self,
-        plan: &ListPlan,
-        context: &mut Context<'_>,
-        written: &mut Vec<Written>,
-    ) -> Result<bool, Fault> {
+    pub(crate) fn advance(&mut self, plan: &ListPlan) -> bool {
         self.row += 1;
-        if self.row >= plan.file.row_count() {
-            return Ok(false);
-        }
-        self.activate(plan, context, written)?;
-        Ok(true)
+        self.row < plan.file.row_count()
     }
 
     pub(crate) fn cells(&self) -> &[Cell] {
@@ -76,7 +62,8 @@ impl ListState {
         self.row as f64 / plan.file.row_count() as f64
     }
 
-    fn activate(
+    /// Writes the row into its entries and columns.
+    pub(crate) fn write(
         &mut self,
         plan: &ListPlan,
         context: &mut Context<'_>,
