@@ -82,6 +82,11 @@ impl Scope {
 
     fn replace(&mut self, slot: u32, value: Option<Value>) {
         self.values[slot as usize] = value;
+        self.note_change(slot);
+    }
+
+    #[inline]
+    fn note_change(&mut self, slot: u32) {
         self.changes += 1;
         self.changed[slot as usize] = self.changes;
         if self.last.len() >= self.values.len() {
@@ -91,10 +96,16 @@ impl Scope {
     }
 
     /// [`Scope::set`] of one number.
+    #[inline]
     pub(crate) fn set_number(&mut self, slot: u32, x: f64) {
-        let held = self.values[slot as usize].as_ref().and_then(Value::single);
-        if held.map(f64::to_bits) != Some(x.to_bits()) {
-            self.replace(slot, Some(x.into()));
+        let held = self.values[slot as usize].as_mut().and_then(Value::single_mut);
+        match held {
+            Some(held) if held.to_bits() == x.to_bits() => {}
+            Some(held) => {
+                *held = x;
+                self.note_change(slot);
+            }
+            None => self.replace(slot, Some(x.into())),
         }
     }
 

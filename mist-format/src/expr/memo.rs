@@ -18,6 +18,7 @@ const FEW: usize = 256;
 
 impl Memo {
     /// The value of `function` at `x`.
+    #[inline]
     pub(super) fn value(&mut self, function: Function, x: f64) -> f64 {
         // 2⁶⁴ over the golden ratio, odd: it spreads neighbours.
         const SPREAD: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -28,6 +28,10 @@ pub(super) enum Code {
     WithNumber(Op, f64),
     /// Takes the top and a variable.
     WithVariable(Op, u32),
+    /// Pushes what a variable and a number give.
+    OfNumber(Op, u32, f64),
+    /// Pushes what two variables give.
+    OfVariable(Op, u32, u32),
     /// A function of the top.
     One(Function),
     /// A function of the top whose values are worth remembering.
@@ -147,6 +151,17 @@ impl Writer<'_> {
             }
         };
         self.code.pop();
+        let code = match (self.code.last(), code) {
+            (Some(Code::Variable(left)), Code::WithNumber(op, x)) => Code::OfNumber(op, *left, x),
+            (Some(Code::Variable(left)), Code::WithVariable(op, right)) => {
+                Code::OfVariable(op, *left, right)
+            }
+            _ => {
+                self.code.push(code);
+                return Some(());
+            }
+        };
+        self.code.pop();
         self.code.push(code);
         Some(())
     }
@@ -193,6 +208,16 @@ pub(super) fn run(
             }
             Code::WithNumber(op, x) => top = op.apply(top, x),
             Code::WithVariable(op, name) => top = op.apply(top, variable(name, expr, scope)?),
+            Code::OfNumber(op, name, x) => {
+                stack[height] = top;
+                height += 1;
+                top = op.apply(variable(name, expr, scope)?, x);
+            }
+            Code::OfVariable(op, left, right) => {
+                stack[height] = top;
+                height += 1;
+                top = op.apply(variable(left, expr, scope)?, variable(right, expr, scope)?);
+            }
             Code::One(function) => top = function.of_one(top),
             Code::Slow(function) => top = memo.value(function, top),
             Code::Two(function) => {

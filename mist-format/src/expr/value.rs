@@ -38,6 +38,15 @@ impl Value {
         }
     }
 
+    /// The number, to be changed, if it is a single one.
+    #[inline]
+    pub fn single_mut(&mut self) -> Option<&mut f64> {
+        match &mut self.0 {
+            Repr::Scalar([one]) => Some(one),
+            Repr::Vector(_) => None,
+        }
+    }
+
     /// The first element.
     pub fn first(&self) -> f64 {
         self.as_slice()[0]
