@@ -29,6 +29,8 @@ PROGRAMS = [
     ("sound", "tests/", []),
     ("mist_engine", "lib", ["--skip", "advice::", "--skip", "adaptive"]),
 ]
+# Crates that get the switch; the others take that of mist_format.
+SWITCHED = ["mist-format", "scattering"]
 SWITCH = """
 /// Whether fault `number` is switched on.
 #[must_use]
@@ -49,7 +51,7 @@ def seeded(faults, folder):
         if text.count(fault["find"]) != 1:
             lost.append(f'{number}: {fault["file"]}: {fault["find"]}')
             continue
-        crate = "crate" if fault["file"].startswith("mist-format/") else "mist_format"
+        crate = "crate" if fault["file"].split("/")[0] in SWITCHED else "mist_format"
         written = fault["write"].replace("FAULT", f"{crate}::fault({number})")
         path.write_text(text.replace(fault["find"], written), encoding="utf-8")
     return lost
@@ -112,8 +114,9 @@ def main():
             print(f"no longer there: {line}", file=sys.stderr)
         if lost or "--check" in sys.argv:
             return 1 if lost else 0
-        library = folder / "mist-format/src/lib.rs"
-        library.write_text(library.read_text(encoding="utf-8") + SWITCH, encoding="utf-8")
+        for crate in SWITCHED:
+            library = folder / crate / "src/lib.rs"
+            library.write_text(library.read_text(encoding="utf-8") + SWITCH, encoding="utf-8")
         programs = built(folder)
         assert caught_by(0, programs) is None, "a test fails without any fault"
         wanted = [int(text) for text in sys.argv[1:]] or range(1, len(faults) + 1)

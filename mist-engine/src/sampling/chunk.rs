@@ -28,7 +28,8 @@ pub(crate) struct Scratch {
 impl Chunk {
     /// Becomes one direction whose sensitivity is not turned, or none.
     pub(super) fn fill_with_one(&mut self, direction: Option<Direction>) {
-        self.clear();
+        self.directions.clear();
+        self.weights.resize(0);
         if let Some(direction) = direction {
             self.directions.push(direction);
             self.weights.push(direction.cos, [1.0, 0.0]);
@@ -37,18 +38,13 @@ impl Chunk {
 
     /// Becomes the directions of unit vectors above the horizon.
     pub(super) fn fill(&mut self, lifted: &Lifted, turn: &Turn) {
-        self.clear();
+        self.directions.clear();
         let whole = lifted.count().next_multiple_of(WIDTH);
         self.directions.reserve(whole);
         self.weights.resize(whole);
         with_widest(Filling { chunk: self, lifted, turn });
         self.directions.truncate(lifted.count());
         self.weights.resize(lifted.count());
-    }
-
-    fn clear(&mut self) {
-        self.directions.clear();
-        self.weights.resize(0);
     }
 }
 
@@ -63,10 +59,9 @@ impl Batch for Filling<'_> {
     #[inline(always)]
     fn run<V: Vectors>(self, vectors: V) {
         let Self { chunk: Chunk { directions, weights }, lifted, turn } = self;
-        let weights =
-            weights.weight.as_chunks_mut().0.iter_mut().zip(
-                weights.cos2b.as_chunks_mut().0.iter_mut().zip(weights.sin2b.as_chunks_mut().0),
-            );
+        let Weights { weight, cos2b, sin2b } = weights;
+        let turns = cos2b.as_chunks_mut().0.iter_mut().zip(sin2b.as_chunks_mut().0);
+        let weights = weight.as_chunks_mut().0.iter_mut().zip(turns);
         for (([x, y, z], from), (weight, (cos2b, sin2b))) in lifted.groups().zip(weights) {
             let v = [vectors.load(x), vectors.load(y), vectors.load(z)];
             let [sin, across, sin_phi, cos_phi] = sines(v);
