@@ -69,6 +69,18 @@ fn the_end_of_a_loop_belongs_to_it_whatever_its_steps_are_rounded_to() {
 }
 
 #[test]
+fn variables_of_variables_follow_a_loop_however_far_they_are_from_it() {
+    let program = "MODEL = Lambertian_BRDF_Model VARIABLES: a = 0 k = 3 b = 2*a c = b+k d = c*b \
+         incidentangle = 0 rotation = 0 incidentpol = (1,0,0,0) differential = 1 minsamples = 1 \
+         END VARY: FOR a FROM 1 TO 4 BY 1 END INTEGRALS: END OUTPUTS: 1 e=d+c END FILES: END ";
+    let table = results(program, Mode::Sound, &[]);
+    let last = |line: &str| line.split_whitespace().last().unwrap().parse::<f64>().unwrap();
+    let got: Vec<f64> = table.lines().skip(1).map(last).collect();
+    let want = [1.0, 2.0, 3.0, 4.0].map(|a| (2.0 * a + 3.0) * (2.0 * a + 1.0));
+    assert_eq!(got, want, "{table}");
+}
+
+#[test]
 fn a_new_slope_distribution_gets_its_parameters_again_in_a_sound_run_only() {
     let program = "MODEL = Facet_BRDF_Model VARIABLES: \
          $sdf = Gaussian_Slope_Distribution_Function #sdf.s = 0.2 \

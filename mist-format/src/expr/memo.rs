@@ -51,7 +51,7 @@ mod tests {
             for function in functions.clone() {
                 for k in -400..400 {
                     let x = f64::from(k) * 0.37 + f64::from(round % 2);
-                    for x in [x, -x, x / 0.0] {
+                    for x in [x, x.next_up(), -x, x / 0.0] {
                         let value = memo.value(function, x).to_bits();
                         assert_eq!(value, function.of_one(x).to_bits(), "{function:?} {x}");
                     }
