@@ -9,6 +9,7 @@ use crate::{
 };
 
 pub mod bare;
+mod several;
 pub mod shadowed;
 pub mod shadowed_subsurface;
 pub mod subsurface;

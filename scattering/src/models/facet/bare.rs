@@ -30,10 +30,9 @@ use super::{
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
     geometry::Outgoing,
-    lanes::{Batch, Complex, Vectors, WIDTH, with_widest},
     models::{Brdf, COMMON, Common},
     optics::film::{Films, Pair},
-    polarization::{Signed, elements, muellers},
+    polarization::Signed,
     slope::SlopeDistribution,
     spec::{Class, Laws, Spec},
     stack::Stack,
@@ -55,118 +54,17 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 /// Specular facets.
 pub(crate) struct Facet {
-    common: Common,
-    slopes: Box<dyn SlopeDistribution>,
-    films: Films,
+    pub(super) common: Common,
+    pub(super) slopes: Box<dyn SlopeDistribution>,
+    pub(super) films: Films,
     /// Defect B5: no turn where the facet is met along its normal.
-    unturned: bool,
-}
-
-/// The slopes of the facets that reflect a beam into directions.
-struct Slopes<'a> {
-    incidence: &'a Incidence,
-    directions: &'a [[Direction; WIDTH]],
-    out: &'a mut [[[f64; WIDTH]; 2]],
-}
-
-impl Batch for Slopes<'_> {
-    #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
-        for (directions, out) in self.directions.iter().zip(self.out) {
-            let to = Outgoing::several(vectors, directions);
-            *out = Tilted::between(self.incidence, &to).slopes.map(|slope| vectors.store(slope));
-        }
-    }
-}
-
-/// The matrices of facets whose slopes have known densities.
-struct Matrices<'a> {
-    facet: &'a Facet,
-    incidence: &'a Incidence,
-    directions: &'a [[Direction; WIDTH]],
-    densities: &'a [[f64; WIDTH]],
-    out: &'a mut [[Mueller; WIDTH]],
-}
-
-impl Batch for Matrices<'_> {
-    #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
-        let Self { facet, incidence, .. } = self;
-        for ((directions, density), out) in self.directions.iter().zip(self.densities).zip(self.out)
-        {
-            let several = facet.several(vectors, incidence, directions, density);
-            muellers(vectors, several.jones, several.weight, out);
-            if several.is_delicate {
-                for (m, direction) in out.iter_mut().zip(directions) {
-                    *m = facet.mueller(incidence, direction);
-                }
-            }
-        }
-    }
-}
-
-/// The sum of such matrices, w R(β)ᵀ M, lane by lane.
-struct Sums<'a> {
-    facet: &'a Facet,
-    incidence: &'a Incidence,
-    directions: &'a [[Direction; WIDTH]],
-    densities: &'a [[f64; WIDTH]],
-    weights: Signed<'a>,
-    sum: &'a mut Mueller,
-}
-
-impl Batch for Sums<'_> {
-    #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
-        let Self { facet, incidence, directions, densities, weights, sum } = self;
-        let [weight, cos2b, sin2b] =
-            [weights.weight, weights.cos2b, weights.sin2b].map(|part| part.as_chunks().0);
-        let zero = vectors.load(&[0.0; WIDTH]);
-        let mut sums = [[zero; 4]; 4];
-        for (group, (directions, density)) in directions.iter().zip(densities).enumerate() {
-            let several = facet.several(vectors, incidence, directions, density);
-            if several.is_delicate {
-                for (k, direction) in directions.iter().enumerate() {
-                    weights.add(group * WIDTH + k, &facet.mueller(incidence, direction), sum);
-                }
-                continue;
-            }
-            let m = elements(several.jones);
-            let w = several.weight * vectors.load(&weight[group]);
-            let (c, s) =
-                (w * vectors.load(&cos2b[group]), w * (vectors.load(&sin2b[group]) * weights.sign));
-            for k in 0..4 {
-                sums[0][k] = sums[0][k] + w * m[0][k];
-                sums[1][k] = sums[1][k] + (c * m[1][k] - s * m[2][k]);
-                sums[2][k] = sums[2][k] + (s * m[1][k] + c * m[2][k]);
-                sums[3][k] = sums[3][k] + w * m[3][k];
-            }
-        }
-        for (row, sums) in sum.0.iter_mut().zip(sums) {
-            for (element, lanes) in row.iter_mut().zip(sums) {
-                *element += vectors.store(lanes).into_iter().sum::<f64>();
-            }
-        }
-    }
-}
-
-/// Several bare facets met from above.
-struct Several<R> {
-    /// |w|² J.
-    jones: [Complex<R>; 4],
-    /// What M of it is to be multiplied by.
-    weight: R,
-    /// Whether one of them is met so close to its normal that it must be looked at alone.
-    is_delicate: bool,
+    pub(super) unturned: bool,
 }
 
 /// Squared sine of the local angle below which the library turns nothing, in reflection.
-const UNTURNED_REFLECTION: f64 = 1e-20;
+pub(super) const UNTURNED_REFLECTION: f64 = 1e-20;
 /// The same in transmission.
 const UNTURNED_TRANSMISSION: f64 = 1e-14;
-
-/// Groups of [`WIDTH`] directions whose slopes are held at a time.
-const GROUPS: usize = 32;
 
 impl Facet {
     pub(crate) fn read(node: &Node) -> Result<Self, ParamError> {
@@ -217,60 +115,6 @@ impl Facet {
         let weight = self.slopes.density(x, y) * facet.elongation()
             / (direction.cos * (4.0 * incidence.cos) * norm);
         (if from_below { jones.flipped() } else { jones }, weight)
-    }
-
-    /// Hands the densities of the slopes that reflect into several directions to `use_them`, with
-    /// the number of the first group of directions, for at most [`GROUPS`] groups at a time.
-    fn with_densities(
-        &self,
-        incidence: &Incidence,
-        directions: &[[Direction; WIDTH]],
-        mut use_them: impl FnMut(usize, &[[Direction; WIDTH]], &[[f64; WIDTH]]),
-    ) {
-        for (part, directions) in directions.chunks(GROUPS).enumerate() {
-            let mut slopes = [[[0.0; WIDTH]; 2]; GROUPS];
-            let mut densities = [[0.0; WIDTH]; GROUPS];
-            let slopes = &mut slopes[..directions.len()];
-            let densities = &mut densities[..directions.len()];
-            with_widest(Slopes { incidence, directions, out: slopes });
-            self.slopes.densities(slopes, densities);
-            use_them(part * GROUPS, directions, densities);
-        }
-    }
-
-    #[inline(always)]
-    fn several<V: Vectors>(
-        &self,
-        vectors: V,
-        incidence: &Incidence,
-        directions: &[Direction; WIDTH],
-        density: &[f64; WIDTH],
-    ) -> Several<V::Real> {
-        let to = Outgoing::several(vectors, directions);
-        let facet = Tilted::between(incidence, &to);
-        let turn = Turn::new(incidence, &to, to.cos);
-        let norm = turn.norm();
-        let weight =
-            vectors.load(density) * facet.elongation() / (to.cos * (4.0 * incidence.cos) * norm);
-        let mut is_delicate = false;
-        let (norm, sin2) = (vectors.store(norm), vectors.store(facet.sin2));
-        for (norm, sin2) in norm.into_iter().zip(sin2) {
-            is_delicate |=
-                norm < f64::MIN_POSITIVE || (self.unturned && sin2 <= UNTURNED_REFLECTION);
-        }
-        let jones = turn.elements(self.films.bare(facet.cos(), facet.sin2));
-        Several { jones, weight, is_delicate }
-    }
-
-    /// How many of the first directions go through [`Facet::several`]: all but the last few where
-    /// bare facets reflect from above.
-    fn groups<'d>(&self, directions: &'d [Direction]) -> (&'d [[Direction; WIDTH]], usize) {
-        if self.common.side == Side::DownUp && self.films.is_bare() {
-            let (groups, rest) = directions.as_chunks();
-            (groups, directions.len() - rest.len())
-        } else {
-            (&[], 0)
-        }
     }
 
     fn refraction(&self, incidence: &Incidence, direction: &Direction) -> Option<(Jones, f64)> {
@@ -335,30 +179,11 @@ impl Brdf for Facet {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        let (groups, done) = self.groups(directions);
-        let (to, left) = out.split_at_mut(done);
-        let to = to.as_chunks_mut().0;
-        self.with_densities(incidence, groups, |first, directions, densities| {
-            let out = &mut to[first..first + directions.len()];
-            with_widest(Matrices { facet: self, incidence, directions, densities, out });
-        });
-        for (m, direction) in left.iter_mut().zip(&directions[done..]) {
-            *m = self.mueller(incidence, direction);
-        }
+        self.matrices(incidence, directions, out);
     }
 
     fn sum(&self, incidence: &Incidence, directions: &[Direction], weights: Signed<'_>) -> Mueller {
-        let mut sum = Mueller::ZERO;
-        let (groups, done) = self.groups(directions);
-        self.with_densities(incidence, groups, |first, directions, densities| {
-            let weights = weights.part(first * WIDTH..(first + directions.len()) * WIDTH);
-            let sum = &mut sum;
-            with_widest(Sums { facet: self, incidence, directions, densities, weights, sum });
-        });
-        for (k, direction) in directions.iter().enumerate().skip(done) {
-            weights.add(k, &self.mueller(incidence, direction), &mut sum);
-        }
-        sum
+        self.sum_of_matrices(incidence, directions, weights)
     }
 
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
