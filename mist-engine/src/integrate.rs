@@ -100,7 +100,7 @@ pub fn samples(
         let mut matrices = vec![Mueller::ZERO; directions.len()];
         model.evaluate(incidence, directions, basis, &mut matrices);
         for (at, (m, d)) in matrices.iter().zip(directions).enumerate() {
-            let (cos2b, sin2b) = (weights.cos2b[at], model.turn() * weights.sin2b[at]);
+            let (cos2b, sin2b) = (weights.cos2b[at], model.turn_sign() * weights.sin2b[at]);
             let brdf = turned(pol, cos2b, sin2b).dot(&(*m * *inpol));
             visit(Sample { theta: d.theta(), phi: d.phi(), brdf });
         }

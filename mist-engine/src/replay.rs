@@ -206,12 +206,7 @@ impl<'j> Replay<'j> {
 
     /// Goes to the next combination of loop values; false after the last one.
     fn move_loops(&mut self) -> Result<bool, Fault> {
-        let mut context = Context {
-            scope: &mut self.scope,
-            stack: &mut self.stack,
-            names: &self.job.names,
-            mode: self.job.options.mode,
-        };
+        let mut context = Context::of(self.job, &mut self.scope, &mut self.stack);
         match &mut self.sweep {
             Some(sweep) => sweep.advance(&mut context),
             None => {
@@ -223,12 +218,7 @@ impl<'j> Replay<'j> {
 
     /// Writes what the loops say into their entries.
     fn write_loops(&mut self) -> Result<(), Fault> {
-        let mut context = Context {
-            scope: &mut self.scope,
-            stack: &mut self.stack,
-            names: &self.job.names,
-            mode: self.job.options.mode,
-        };
+        let mut context = Context::of(self.job, &mut self.scope, &mut self.stack);
         let Some(sweep) = &mut self.sweep else { return Ok(()) };
         for written in sweep.write(&mut context)? {
             self.entries[written.entry] = None;

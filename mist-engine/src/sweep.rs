@@ -15,7 +15,7 @@ use std::sync::Arc;
 use mist_format::expr::Stack;
 use scattering::Mode;
 
-use crate::{fault::Fault, scope::Scope, step::Cells};
+use crate::{Job, fault::Fault, scope::Scope, step::Cells};
 
 /// A loop as compiled.
 pub(crate) enum LoopPlan {
@@ -65,6 +65,13 @@ pub(crate) struct Context<'a> {
     pub(crate) stack: &'a mut Stack,
     pub(crate) names: &'a crate::scope::Names,
     pub(crate) mode: Mode,
+}
+
+impl<'a> Context<'a> {
+    /// That of `job`.
+    pub(crate) fn of(job: &'a Job, scope: &'a mut Scope, stack: &'a mut Stack) -> Self {
+        Self { scope, stack, names: &job.names, mode: job.options.mode }
+    }
 }
 
 /// Where a loop stands.

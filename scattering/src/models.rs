@@ -312,7 +312,7 @@ impl Model {
         basis: Basis,
     ) -> Mueller {
         assert_eq!(directions.len(), weights.count(), "one weight per direction");
-        let weights = weights.signed(self.turn());
+        let weights = weights.signed(self.turn_sign());
         let is_above = incidence.is_above() && directions.iter().all(Direction::is_above);
         if is_above && self.brdf.native_basis() == basis {
             return self.brdf.sum(incidence, directions, weights);
@@ -324,7 +324,7 @@ impl Model {
 
     /// −1 for light that leaves downwards, where an aperture's sensitivity turns the other way,
     /// otherwise 1.
-    pub fn turn(&self) -> f64 {
+    pub fn turn_sign(&self) -> f64 {
         if self.common().side.to_below() { -1.0 } else { 1.0 }
     }
 

@@ -178,7 +178,7 @@ impl Probes {
         basis: Basis,
         (first, last): (usize, usize),
     ) -> Vec<Mueller> {
-        let weights = self.weights.signed(model.turn());
+        let weights = self.weights.signed(model.turn_sign());
         let mut means = vec![Mueller::ZERO; last - first];
         let mut at = if first == 0 { 0 } else { self.ends[first - 1] };
         let (end, mut patch) = (self.ends[last - 1], first);

@@ -3,7 +3,7 @@
 
 use mist_format::expr::Expr;
 
-use crate::{Job, job::Entry, scope::Scope};
+use crate::{Job, scope::Scope};
 
 /// The entries that are due.
 pub(super) struct Due {
@@ -12,8 +12,6 @@ pub(super) struct Due {
     always: Vec<bool>,
     /// For each slot the entries that give or read it.
     concerned: Vec<Vec<usize>>,
-    /// Whether an entry reads the slot that it gives.
-    counts_on: Vec<bool>,
     /// Changes of the scope up to this one are taken into account.
     seen: u64,
 }
@@ -33,11 +31,7 @@ impl Due {
         let count = job.entries.len();
         let mut entries = Marks(vec![0; count.div_ceil(64)]);
         (0..count).for_each(|at| entries.mark(at));
-        let reads_its_own = |entry: &Entry| {
-            entry.expr.iter().flat_map(Expr::slots).any(|slot| Some(*slot) == entry.slot)
-        };
-        let counts_on = job.entries.iter().map(reads_its_own).collect();
-        Self { entries, always: vec![false; count], concerned, counts_on, seen: 0 }
+        Self { entries, always: vec![false; count], concerned, seen: 0 }
     }
 
     /// The entry `at` has to be evaluated.
@@ -62,11 +56,12 @@ impl Due {
         }
     }
 
-    /// [`Due::look_at`], where nothing but `slot` may have changed, by the entry `giver`.
+    /// [`Due::look_at`], where nothing but `slot` may have changed, by the entry `giver`; it stays as
+    /// it is even if it reads the slot: an entry before it has given that, and is due.
     pub(super) fn given(&mut self, scope: &Scope, giver: usize, slot: u32) {
         if scope.now() > self.seen {
             for at in &self.concerned[slot as usize] {
-                if *at != giver || self.counts_on[giver] {
+                if *at != giver {
                     self.entries.mark(*at);
                 }
             }

@@ -36,10 +36,15 @@ pub(super) struct Known<'a> {
     verdicts: &'a [Cell],
 }
 
+/// The verdicts where there are no cells, and their numbers.
+const WITHOUT_CELLS: &[Cell] = &[Cell::Edges, Cell::Inside, Cell::Outside];
+const ASK: f64 = 0.0;
+const INSIDE: f64 = 1.0;
+const OUTSIDE: f64 = 2.0;
+
 impl<'a> Known<'a> {
     /// About points that `projection` puts on a cone with this frame and that are to lie `inside`.
     pub(super) fn new(projection: Projection, frame: &'a Frame, inside: &'a Inside) -> Self {
-        const WITHOUT_CELLS: &[Cell] = &[Cell::Edges, Cell::Inside, Cell::Outside];
         let verdicts = inside.cells().map_or(WITHOUT_CELLS, Cells::all);
         Self { projection, frame, inside, verdicts }
     }
@@ -49,16 +54,16 @@ impl<'a> Known<'a> {
     fn numbers<R: Real>(&self, plane: [R; 2], [x, y, z]: [R; 3]) -> R {
         let above = match (self.inside, self.inside.cells()) {
             (_, Some(cells)) => cells.number([x, y]),
-            (Inside::Cone, _) => z.all(1.0),
+            (Inside::Cone, _) => z.all(INSIDE),
             (Inside::Outside { axis, cos }, _) => {
                 let to_axis = x * axis.x + y * axis.y + z * axis.z;
-                (-to_axis + *cos).choose(z.all(1.0), z.all(2.0))
+                (-to_axis + *cos).choose(z.all(INSIDE), z.all(OUTSIDE))
             }
-            (Inside::Polygon(_) | Inside::One(_), None) => z.all(0.0),
+            (Inside::Polygon(_) | Inside::One(_), None) => z.all(ASK),
         };
         let outside = z.all((self.verdicts.len() - 1) as f64);
         let clearance = self.projection.clearance(plane, z);
-        clearance.choose(z.choose(above, outside), z.all(0.0))
+        clearance.choose(z.choose(above, outside), z.all(ASK))
     }
 }
 

@@ -124,7 +124,8 @@ impl Facet {
         directions: &[Direction],
         out: &mut [Mueller],
     ) {
-        let (groups, done) = self.groups(directions);
+        let groups = self.groups(directions);
+        let done = groups.as_flattened().len();
         let (to, left) = out.split_at_mut(done);
         let to = to.as_chunks_mut().0;
         self.with_densities(incidence, groups, |first, directions, densities| {
@@ -144,13 +145,13 @@ impl Facet {
         weights: Signed<'_>,
     ) -> Mueller {
         let mut sum = Mueller::ZERO;
-        let (groups, done) = self.groups(directions);
+        let groups = self.groups(directions);
         self.with_densities(incidence, groups, |first, directions, densities| {
             let weights = weights.part(first * WIDTH..(first + directions.len()) * WIDTH);
             let sum = &mut sum;
             with_widest(Sums { facet: self, incidence, directions, densities, weights, sum });
         });
-        for (k, direction) in directions.iter().enumerate().skip(done) {
+        for (k, direction) in directions.iter().enumerate().skip(groups.as_flattened().len()) {
             weights.add(k, &self.mueller(incidence, direction), &mut sum);
         }
         sum
@@ -199,14 +200,10 @@ impl Facet {
         Several { jones, weight, is_delicate }
     }
 
-    /// How many of the first directions go through [`Facet::several`]: all but the last few where
-    /// bare facets reflect from above.
-    fn groups<'d>(&self, directions: &'d [Direction]) -> (&'d [[Direction; WIDTH]], usize) {
-        if self.common.side == Side::DownUp && self.films.is_bare() {
-            let (groups, rest) = directions.as_chunks();
-            (groups, directions.len() - rest.len())
-        } else {
-            (&[], 0)
-        }
+    /// The first directions that go through [`Facet::several`]: all but the last few where bare
+    /// facets reflect from above, else none.
+    fn groups<'d>(&self, directions: &'d [Direction]) -> &'d [[Direction; WIDTH]] {
+        let applies = self.common.side == Side::DownUp && self.films.is_bare();
+        if applies { directions.as_chunks().0 } else { &[] }
     }
 }
