@@ -82,9 +82,9 @@ fn variables_of_variables_follow_a_loop_however_far_they_are_from_it() {
 
 #[test]
 fn a_variable_that_is_given_again_from_itself_begins_anew_in_every_step() {
-    let program = "MODEL = Lambertian_BRDF_Model VARIABLES: a = 0 m = 1 m = m+a m = m*m \
+    let program = "MODEL = Lambertian_BRDF_Model VARIABLES: a = 0 q = 0 m = 1 m = m+a m = m*m \
          incidentangle = 0 rotation = 0 incidentpol = (1,0,0,0) differential = 1 minsamples = 1 \
-         END VARY: FOR a FROM 0 TO 1 BY 1 FOR a FROM 0 TO 3 BY 1 END INTEGRALS: END \
+         END VARY: FOR q FROM 0 TO 1 BY 1 FOR a FROM 0 TO 3 BY 1 END INTEGRALS: END \
          OUTPUTS: 1 e=m END FILES: END ";
     let table = results(program, Mode::Sound, &[]);
     let last = |line: &str| line.split_whitespace().last().unwrap().parse::<f64>().unwrap();
