@@ -15,7 +15,7 @@ use num_complex::Complex64;
 pub use wide::{Batch, Vectors, with_widest};
 
 /// How many numbers go side by side.
-pub const WIDTH: usize = 4;
+pub const WIDTH: usize = 8;
 
 /// One number, or several that go the same way.
 pub trait Real:
@@ -321,7 +321,7 @@ impl<R: Real> Mul for Complex<R> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{wide::Kind, *};
 
     #[test]
     fn the_falling_exponential_is_that_of_the_standard_library() {
@@ -363,26 +363,25 @@ mod tests {
 
     #[test]
     fn every_lane_has_the_bits_of_its_number_alone() {
-        let (x, y) = ([0.1, 7.0, 0.2, 1e-3], [0.4, 6.9, 0.3, 0.0]);
-        let arrays = formula(Lanes(x), Lanes(y)).0;
-        let mut registers = [0.0; WIDTH];
-        with_widest(Formula(x, y, &mut registers));
-        for k in 0..WIDTH {
-            let alone = formula(x[k], y[k]).to_bits();
-            assert_eq!([arrays[k].to_bits(), registers[k].to_bits()], [alone; 2]);
+        let x = [0.1, 7.0, 0.2, 1e-3, -0.7, 1e9, 0.5, 1.0];
+        let y = [0.4, 6.9, 0.3, 0.0, -2e-5, 3.0, 0.6, 1.0];
+        let alone = std::array::from_fn(|k| formula(x[k], y[k]).to_bits());
+        let mut several = [0.0; WIDTH];
+        for kind in Kind::of_this_processor() {
+            kind.run(Formula(x, y, &mut several));
+            assert_eq!(several.map(f64::to_bits), alone, "{kind:?}");
         }
     }
 
     #[test]
     fn what_is_not_a_number_chooses_and_stays_the_same_in_every_kind_of_lane() {
-        let x = [f64::NAN, -0.0, f64::INFINITY, f64::NEG_INFINITY];
-        let y = [1.0, f64::NAN, -2.0, -0.0];
-        let arrays = Lanes(x).choose(Lanes(y), Lanes([5.0; WIDTH])).0;
-        let mut registers = [0.0; WIDTH];
-        with_widest(Choice(x, y, &mut registers));
-        for k in 0..WIDTH {
-            let alone = x[k].choose(y[k], 5.0).to_bits();
-            assert_eq!([arrays[k].to_bits(), registers[k].to_bits()], [alone; 2]);
+        let x = [f64::NAN, -0.0, f64::INFINITY, f64::NEG_INFINITY, 0.0, -f64::NAN, 1e-320, -1e-320];
+        let y = [1.0, f64::NAN, -2.0, -0.0, f64::INFINITY, 3.0, f64::NAN, 4.0];
+        let alone = std::array::from_fn(|k| x[k].choose(y[k], 5.0).to_bits());
+        let mut several = [0.0; WIDTH];
+        for kind in Kind::of_this_processor() {
+            kind.run(Choice(x, y, &mut several));
+            assert_eq!(several.map(f64::to_bits), alone, "{kind:?}");
         }
     }
 

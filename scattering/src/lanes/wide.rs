@@ -1,15 +1,14 @@
 //! The vectors of the processor, for batches.
 //!
-//! On processors with vectors of [`WIDTH`] numbers a [`Batch`] is computed in them, elsewhere in
-//! [`Lanes`]. Both do the operations of one number in their order, so the bits are the same. No two
-//! operations become one, which would change them.
+//! A [`Batch`] goes by [`WIDTH`] numbers: one register of processors with AVX-512, two of those with
+//! AVX2, and [`Lanes`] elsewhere. All do the operations of one number in their order, so the bits
+//! are the same. No two operations become one, which would change them.
 
-use std::{
-    array::from_ref,
-    ops::{Add, Div, Mul, Neg, Sub},
-};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use pulp::{Simd, WithSimd, bytemuck::cast_slice};
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::{V3, V4};
+use pulp::{Simd, WithSimd};
 
 use super::{Lanes, Real, WIDTH};
 
@@ -23,21 +22,59 @@ pub trait Batch {
 
 /// Runs `batch` with the vectors of this processor.
 pub fn with_widest(batch: impl Batch) {
-    pulp::Arch::new().dispatch(Dispatched(batch));
+    Kind::of_this_processor().next().unwrap_or(Kind::Plain).run(batch);
 }
 
-struct Dispatched<B>(B);
+/// The kinds of vectors.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Kind {
+    /// AVX-512.
+    #[cfg(target_arch = "x86_64")]
+    V4(V4),
+    /// AVX2.
+    #[cfg(target_arch = "x86_64")]
+    V3(V3),
+    /// [`Lanes`].
+    Plain,
+}
 
-impl<B: Batch> WithSimd for Dispatched<B> {
+impl Kind {
+    /// Those that this processor has, the widest first.
+    #[inline]
+    pub(super) fn of_this_processor() -> impl Iterator<Item = Self> {
+        #[cfg(target_arch = "x86_64")]
+        let registers = {
+            let v3 = std::iter::from_fn(V3::try_new).map(Self::V3).take(1);
+            std::iter::from_fn(V4::try_new).map(Self::V4).take(1).chain(v3)
+        };
+        #[cfg(not(target_arch = "x86_64"))]
+        let registers = std::iter::empty();
+        registers.chain([Self::Plain])
+    }
+
+    /// Runs `batch` with these vectors.
+    #[inline]
+    pub(super) fn run(self, batch: impl Batch) {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::V4(simd) => Simd::vectorize(simd, Registers::<_, 1>(batch)),
+            #[cfg(target_arch = "x86_64")]
+            Self::V3(simd) => Simd::vectorize(simd, Registers::<_, 2>(batch)),
+            Self::Plain => batch.run(Plain),
+        }
+    }
+}
+
+/// A batch in vectors of `N` registers.
+struct Registers<B, const N: usize>(B);
+
+impl<B: Batch, const N: usize> WithSimd for Registers<B, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if S::F64_LANES == WIDTH {
-            self.0.run(Wide(simd));
-        } else {
-            self.0.run(Plain);
-        }
+        const { assert!(N * S::F64_LANES == WIDTH) };
+        self.0.run(Wide::<S, N>(simd));
     }
 }
 
@@ -53,7 +90,7 @@ pub trait Vectors: Copy {
     fn store(self, x: Self::Real) -> [f64; WIDTH];
 }
 
-/// [`Lanes`].
+/// No registers, but [`Lanes`].
 #[derive(Clone, Copy)]
 struct Plain;
 
@@ -71,48 +108,46 @@ impl Vectors for Plain {
     }
 }
 
-/// Registers of the processor; only for those of [`WIDTH`] numbers.
+/// `N` registers of the processor.
 #[derive(Clone, Copy)]
-struct Wide<S>(S);
+struct Wide<S, const N: usize>(S);
 
-impl<S: Simd> Vectors for Wide<S> {
-    type Real = Vector<S>;
+impl<S: Simd, const N: usize> Vectors for Wide<S, N> {
+    type Real = Vector<S, N>;
 
     #[inline(always)]
-    fn load(self, x: &[f64; WIDTH]) -> Vector<S> {
-        Vector { simd: self.0, x: S::as_simd_f64s(x).0[0] }
+    fn load(self, numbers: &[f64; WIDTH]) -> Vector<S, N> {
+        let mut x = [self.0.splat_f64s(0.0); N];
+        x.copy_from_slice(S::as_simd_f64s(numbers).0);
+        Vector { simd: self.0, x }
     }
 
     #[inline(always)]
-    fn store(self, x: Vector<S>) -> [f64; WIDTH] {
+    fn store(self, x: Vector<S, N>) -> [f64; WIDTH] {
         x.numbers()
     }
 }
 
-/// [`WIDTH`] numbers in a register.
+/// [`WIDTH`] numbers in `N` registers.
 #[derive(Clone, Copy, Debug)]
-struct Vector<S: Simd> {
+struct Vector<S: Simd, const N: usize> {
     simd: S,
-    x: S::f64s,
+    x: [S::f64s; N],
 }
 
-impl<S: Simd> Vector<S> {
-    #[inline(always)]
-    fn with(self, x: S::f64s) -> Self {
-        Self { simd: self.simd, x }
-    }
-
+impl<S: Simd, const N: usize> Vector<S, N> {
     #[inline(always)]
     fn numbers(self) -> [f64; WIDTH] {
-        let all: &[f64] = cast_slice(from_ref(&self.x));
-        std::array::from_fn(|k| all[k])
+        let mut numbers = [0.0; WIDTH];
+        S::as_mut_simd_f64s(&mut numbers).0.copy_from_slice(&self.x);
+        numbers
     }
 }
 
-impl<S: Simd> Real for Vector<S> {
+impl<S: Simd, const N: usize> Real for Vector<S, N> {
     #[inline(always)]
     fn all(self, x: f64) -> Self {
-        self.with(self.simd.splat_f64s(x))
+        Self { x: [self.simd.splat_f64s(x); N], ..self }
     }
 
     #[inline(always)]
@@ -121,44 +156,59 @@ impl<S: Simd> Real for Vector<S> {
     }
 
     #[inline(always)]
-    fn abs(self) -> Self {
-        self.with(self.simd.abs_f64s(self.x))
+    fn abs(mut self) -> Self {
+        for x in &mut self.x {
+            *x = self.simd.abs_f64s(*x);
+        }
+        self
     }
 
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.with(self.simd.sqrt_f64s(self.x))
+    fn sqrt(mut self) -> Self {
+        for x in &mut self.x {
+            *x = self.simd.sqrt_f64s(*x);
+        }
+        self
     }
 
     #[inline(always)]
-    fn choose(self, a: Self, b: Self) -> Self {
-        let simd = self.simd;
-        let is_positive = simd.greater_than_or_equal_f64s(self.x, simd.splat_f64s(0.0));
-        self.with(simd.select_f64s(is_positive, a.x, b.x))
+    fn choose(mut self, a: Self, b: Self) -> Self {
+        let zero = self.simd.splat_f64s(0.0);
+        for k in 0..N {
+            let is_positive = self.simd.greater_than_or_equal_f64s(self.x[k], zero);
+            self.x[k] = self.simd.select_f64s(is_positive, a.x[k], b.x[k]);
+        }
+        self
     }
 }
 
-impl<S: Simd> Neg for Vector<S> {
+impl<S: Simd, const N: usize> Neg for Vector<S, N> {
     type Output = Self;
 
     #[inline(always)]
-    fn neg(self) -> Self {
-        self.with(self.simd.neg_f64s(self.x))
+    fn neg(mut self) -> Self {
+        for x in &mut self.x {
+            *x = self.simd.neg_f64s(*x);
+        }
+        self
     }
 }
 
 macro_rules! arithmetic {
     ($($operation:ident $function:ident $of_vectors:ident)*) => {$(
-        impl<S: Simd> $operation for Vector<S> {
+        impl<S: Simd, const N: usize> $operation for Vector<S, N> {
             type Output = Self;
 
             #[inline(always)]
-            fn $function(self, other: Self) -> Self {
-                self.with(self.simd.$of_vectors(self.x, other.x))
+            fn $function(mut self, other: Self) -> Self {
+                for k in 0..N {
+                    self.x[k] = self.simd.$of_vectors(self.x[k], other.x[k]);
+                }
+                self
             }
         }
 
-        impl<S: Simd> $operation<f64> for Vector<S> {
+        impl<S: Simd, const N: usize> $operation<f64> for Vector<S, N> {
             type Output = Self;
 
             #[inline(always)]
