@@ -2,10 +2,12 @@
 
 use std::{
     io,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Arc, atomic::AtomicBool},
+};
+
+use signal_hook::{
+    consts::{SIGINT, SIGTERM},
+    flag::{register, register_conditional_shutdown},
 };
 
 /// Exit code of a process that was asked twice: that of a shell for Ctrl-C.
@@ -31,21 +33,14 @@ pub(crate) async fn asked() -> io::Result<()> {
 }
 
 /// A flag that becomes true when the process is asked to stop; a second time it stops at once.
+///
+/// No thread waits for it: short runs would feel that.
 pub(crate) fn flag() -> Arc<AtomicBool> {
     let flag = Arc::new(AtomicBool::new(false));
-    let raised = flag.clone();
-    std::thread::spawn(move || {
-        let Ok(runtime) = tokio::runtime::Builder::new_current_thread().enable_io().build() else {
-            return;
-        };
-        runtime.block_on(async {
-            if asked().await.is_ok() {
-                raised.store(true, Ordering::Relaxed);
-            }
-            if asked().await.is_ok() {
-                std::process::exit(STOPPED_AT_ONCE);
-            }
-        });
-    });
+    for signal in [SIGINT, SIGTERM] {
+        // Where the system refuses, the process ends at once, with its temporary files left.
+        let _ = register_conditional_shutdown(signal, STOPPED_AT_ONCE, flag.clone())
+            .and_then(|_| register(signal, flag.clone()));
+    }
     flag
 }

@@ -24,7 +24,9 @@ impl Progress {
         let style = ProgressStyle::with_template("{prefix} {wide_bar} {percent:>3}% {eta:>4}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
         bar.set_prefix(label.to_owned());
-        bar.enable_steady_tick(Duration::from_millis(500));
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_millis(500));
+        }
         Self { bar }
     }
 
