@@ -260,6 +260,14 @@ impl<R: Real> Complex<R> {
     }
 }
 
+/// a/b and c/d, with one division.
+#[inline(always)]
+pub(crate) fn ratios<R: Real>([a, c]: [Complex<R>; 2], [b, d]: [Complex<R>; 2]) -> [Complex<R>; 2] {
+    let (b2, d2) = (b.norm_sqr(), d.norm_sqr());
+    let per_both = b2.all(1.0) / (b2 * d2);
+    [a.times_conjugate(b) * (per_both * d2), c.times_conjugate(d) * (per_both * b2)]
+}
+
 impl From<Complex64> for Complex<f64> {
     #[inline(always)]
     fn from(z: Complex64) -> Self {

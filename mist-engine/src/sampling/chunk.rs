@@ -88,7 +88,8 @@ impl Batch for Filling<'_> {
 fn sines<R: Real>([x, y, z]: [R; 3]) -> [R; 4] {
     let square = (-z + 1.0) * (z + 1.0);
     let across = (x * x + y * y).sqrt();
-    [square.choose(square, z.all(0.0)).sqrt(), across, y / across, x / across]
+    let per_across = z.all(1.0) / across;
+    [square.choose(square, z.all(0.0)).sqrt(), across, y * per_across, x * per_across]
 }
 
 /// The direction of the unit vector `v` above the horizon.

@@ -31,7 +31,8 @@ fn unless_zero<R: Real>([x, y]: [R; 2], usual: [R; 2], special: [R; 2]) -> [R; 2
 fn doubled<R: Real>(x: R, y: R) -> [R; 2] {
     let square = x * x + y * y;
     let is_zero = -square;
-    let doubled = [(x * x - y * y) / square, x * y * 2.0 / square];
+    let per_square = x.all(1.0) / square;
+    let doubled = [(x * x - y * y) * per_square, x * y * 2.0 * per_square];
     [is_zero.choose(x.all(1.0), doubled[0]), is_zero.choose(x.all(0.0), doubled[1])]
 }
 

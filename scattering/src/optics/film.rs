@@ -26,7 +26,7 @@ use num_complex::Complex64;
 
 use crate::{
     Jones,
-    lanes::{Complex, Real},
+    lanes::{Complex, Real, ratios},
 };
 
 const I: Complex64 = Complex64::I;
@@ -263,7 +263,7 @@ impl Films {
         }
         let outer = Complex::real(q_outer);
         let (a, b) = (Complex { re: q_outer * et.re, im: q_outer * et.im }, q * q_outer.all(e0));
-        [(outer - q).over(outer + q), (a - b).over(a + b)]
+        ratios([outer - q, a - b], [outer + q, a + b])
     }
 
     /// Fields at every interface for a wave from the side `from` with unit amplitude where it

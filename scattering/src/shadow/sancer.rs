@@ -25,10 +25,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI, PI, TAU};
 use super::Shadow;
 use crate::{
     Direction, Incidence,
-    lanes::Real,
     slope::SlopeDistribution,
     spec::{Class, Laws, Node, Param, ParamError, Spec},
-    special::erf::falling_and_erfc,
+    special::erf::falling_and_scaled,
 };
 
 /// How programs name, parameterize and build it.
@@ -157,15 +156,12 @@ fn azimuth_between(incidence: &Incidence, direction: &Direction) -> f64 {
 
 /// Λ = ½[e^{−x²}/(√π x) − erfc x]; beyond x = 26 it is below 10⁻²⁹⁵ and taken as 0.
 pub fn lambda(x: f64) -> f64 {
-    if x > 26.0 { 0.0 } else { lambda_and_erfc(x)[0] }
-}
-
-/// Λ and erfc x, which it contains, for x ≤ 26.
-#[inline(always)]
-pub(super) fn lambda_and_erfc<R: Real>(x: R) -> [R; 2] {
-    let [falling, erfc] = falling_and_erfc(x);
-    [(falling / (x * ROOT_PI) - erfc) * 0.5, erfc]
+    if x > 26.0 {
+        return 0.0;
+    }
+    let [falling, scaled] = falling_and_scaled(x);
+    (falling / (x * ROOT_PI) - falling * scaled / (x * 2.0 + 1.0)) * 0.5
 }
 
 /// √π.
-const ROOT_PI: f64 = 2.0 / FRAC_2_SQRT_PI;
+pub(super) const ROOT_PI: f64 = 2.0 / FRAC_2_SQRT_PI;

@@ -15,12 +15,13 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::{Shadow, sancer::lambda_and_erfc};
+use super::{Shadow, sancer::ROOT_PI};
 use crate::{
     Direction, Incidence,
     geometry::Outgoing,
     lanes::{Batch, Real, Vectors, WIDTH, with_widest},
     spec::{Class, Laws, Param, ParamError, Spec},
+    special::erf::falling_and_scaled,
 };
 
 /// How programs name, parameterize and build it.
@@ -39,12 +40,13 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         if !(w > 0.0 && w.is_finite()) {
             return Err(ParamError::new("w", format!("{w} is not positive")));
         }
-        Ok(Box::new(Smith { w }))
+        Ok(Box::new(Smith { scale: FRAC_1_SQRT_2 / w }))
     },
 };
 
 struct Smith {
-    w: f64,
+    /// μ/√2w over μ.
+    scale: f64,
 }
 
 /// From this x on, erfc x and Λ are below 3·10⁻¹⁷: g is 1 to the last bit.
@@ -52,11 +54,17 @@ const UNSHADOWED: f64 = 6.0;
 
 impl Smith {
     /// g of a ray, or of several.
+    ///
+    /// With x = μ/√2w and erfc x = e^{−x²} f/(1 + 2x), numerator and denominator are taken times
+    /// √π x (1 + 2x): then only one division is left.
     #[inline(always)]
     fn one_ray<R: Real>(&self, sin: R, cos: R) -> R {
-        let x = cos / sin.abs() * FRAC_1_SQRT_2 / self.w;
-        let [lambda, erfc] = lambda_and_erfc(x);
-        let shadowed = (-(erfc * 0.5) + 1.0) / (lambda + 1.0);
+        let x = cos / sin.abs() * self.scale;
+        let [falling, scaled] = falling_and_scaled(x);
+        let (of_lambda, of_erfc) = (x * ROOT_PI, x * 2.0 + 1.0);
+        let whole = of_lambda * of_erfc;
+        let erfc = falling * scaled * of_lambda;
+        let shadowed = (whole - erfc * 0.5) / (whole + (falling * of_erfc - erfc) * 0.5);
         (x - UNSHADOWED).choose(x.all(1.0), shadowed)
     }
 }

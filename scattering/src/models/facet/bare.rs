@@ -112,8 +112,8 @@ impl Facet {
         let unturned = self.unturned && facet.sin2 <= UNTURNED_REFLECTION;
         let (jones, norm) = turned(incidence, direction, direction.cos, coefficients, unturned);
         let [x, y] = facet.slopes;
-        let weight = self.slopes.density(x, y) * facet.elongation()
-            / (direction.cos * (4.0 * incidence.cos) * norm);
+        let weight =
+            facet.weight(self.slopes.density(x, y), direction.cos * (4.0 * incidence.cos) * norm);
         (if from_below { jones.flipped() } else { jones }, weight)
     }
 

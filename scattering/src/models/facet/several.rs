@@ -188,8 +188,7 @@ impl Facet {
         let facet = Tilted::between(incidence, &to);
         let turn = Turn::new(incidence, &to, to.cos);
         let norm = turn.norm();
-        let weight =
-            vectors.load(density) * facet.elongation() / (to.cos * (4.0 * incidence.cos) * norm);
+        let weight = facet.weight(vectors.load(density), to.cos * (4.0 * incidence.cos) * norm);
         let mut is_delicate = false;
         let (norm, sin2) = (vectors.store(norm), vectors.store(facet.sin2));
         for (norm, sin2) in norm.into_iter().zip(sin2) {

@@ -118,7 +118,7 @@ impl SubsurfaceFacet {
         let unturned = self.unturned && facet.sin2 <= UNTURNED;
         let (jones, norm) = turned(incidence, direction, direction.cos, coefficients, unturned);
         let [x, y] = facet.slopes;
-        (jones, self.slopes.density(x, y) * facet.elongation() / norm)
+        (jones, facet.weight(self.slopes.density(x, y), norm))
     }
 
     fn crossing(&self, sin: f64) -> Pair {

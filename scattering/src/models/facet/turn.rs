@@ -43,7 +43,8 @@ impl<R: Real> Tilted<R> {
         let (hx, hz) = (kx - incidence.sin, to.cos + incidence.cos);
         // |k_o + k_i| = 2 sin ι.
         let sin2 = length_squared(kx + incidence.sin, to.cos - incidence.cos) * 0.25;
-        let (x, y) = (hx / hz, ky / hz);
+        let per_hz = hz.all(1.0) / hz;
+        let (x, y) = (hx * per_hz, ky * per_hz);
         let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);
         Self {
             h2: length_squared(hx, hz),
@@ -59,10 +60,10 @@ impl<R: Real> Tilted<R> {
         self.h2.sqrt() * 0.5
     }
 
-    /// 1/n_z⁴.
+    /// S/(n_z⁴ x) for the density S of the slopes.
     #[inline(always)]
-    pub(crate) fn elongation(&self) -> R {
-        self.h2 * self.h2 / (self.z2 * self.z2)
+    pub(crate) fn weight(&self, density: R, x: R) -> R {
+        density * (self.h2 * self.h2) / (self.z2 * self.z2 * x)
     }
 }
 
