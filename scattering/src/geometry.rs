@@ -80,7 +80,7 @@ impl Angle {
     fn is_above(self, cos: f64) -> bool {
         // The largest cosine whose angle rounds to π/2.
         const HORIZON: f64 = 1.722_546_424_198_833e-16;
-        if self.0.is_nan() { cos > HORIZON } else { self.0.abs() < FRAC_PI_2 }
+        (self.0.abs() < FRAC_PI_2) | (self.0.is_nan() & (cos > HORIZON))
     }
 }
 

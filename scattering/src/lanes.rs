@@ -17,6 +17,12 @@ pub use wide::{Batch, Vectors, with_widest};
 /// How many numbers go side by side.
 pub const WIDTH: usize = 8;
 
+/// The group of `rest`, fewer than [`WIDTH`], and the last of them again; nothing of nothing.
+pub(crate) fn filled_up<T: Copy>(rest: &[T]) -> Option<[T; WIDTH]> {
+    let last = rest.len().checked_sub(1)?;
+    Some(std::array::from_fn(|k| rest[k.min(last)]))
+}
+
 /// One number, or several that go the same way.
 pub trait Real:
     Copy

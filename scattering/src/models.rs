@@ -100,6 +100,11 @@ fn sum_of(
     sum
 }
 
+/// Whether all directions are above the horizon; without a jump for each.
+fn all_above(directions: &[Direction]) -> bool {
+    directions.iter().fold(true, |above, to| above & to.is_above())
+}
+
 /// A cone of directions with a sharp rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
@@ -288,7 +293,7 @@ impl Model {
             out.fill(Mueller::ZERO);
             return;
         }
-        if directions.iter().all(Direction::is_above) {
+        if all_above(directions) {
             self.brdf.mueller_batch(incidence, directions, out);
         } else {
             for (m, d) in out.iter_mut().zip(directions) {
@@ -313,7 +318,7 @@ impl Model {
     ) -> Mueller {
         assert_eq!(directions.len(), weights.count(), "one weight per direction");
         let weights = weights.signed(self.turn_sign());
-        let is_above = incidence.is_above() && directions.iter().all(Direction::is_above);
+        let is_above = incidence.is_above() && all_above(directions);
         if is_above && self.brdf.native_basis() == basis {
             return self.brdf.sum(incidence, directions, weights);
         }

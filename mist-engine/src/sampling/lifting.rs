@@ -111,12 +111,12 @@ impl Lifted {
     }
 
     #[inline(always)]
-    fn push_group(&mut self, v: &[[f64; WIDTH]; 3], weights: &[f64; WIDTH]) {
+    fn push_group<V: Vectors>(&mut self, vectors: V, v: [V::Real; 3], weights: V::Real) {
         let place = self.count..self.count + WIDTH;
         for (part, v) in self.v.iter_mut().zip(v) {
-            part[place.clone()].copy_from_slice(v);
+            part[place.clone()].copy_from_slice(&vectors.store(v));
         }
-        self.weights[place].copy_from_slice(weights);
+        self.weights[place].copy_from_slice(&vectors.store(weights));
         self.count += WIDTH;
     }
 }
@@ -147,13 +147,13 @@ impl<F: FnMut(Asked) -> Option<(DVec3, f64)>> Batch for Lifting<'_, F> {
             if verdicts == [Cell::Outside; WIDTH] {
                 continue;
             }
-            let projected = vectors.store(weight * v[2]);
-            let v = [vectors.store(v[0]), vectors.store(v[1]), vectors.store(v[2])];
+            let projected = weight * v[2];
             if verdicts == [Cell::Inside; WIDTH] && here == WIDTH {
-                lifted.push_group(&v, &projected);
+                lifted.push_group(vectors, v, projected);
                 continue;
             }
-            let weight = vectors.store(weight);
+            let (weight, projected) = (vectors.store(weight), vectors.store(projected));
+            let v = [vectors.store(v[0]), vectors.store(v[1]), vectors.store(v[2])];
             for k in 0..here {
                 let v = DVec3::new(v[0][k], v[1][k], v[2][k]);
                 let kept = match verdicts[k] {

@@ -7,6 +7,7 @@
 //!    \cos2\beta\,M_1 - \sin2\beta\,M_2, \quad \sin2\beta\,M_1 + \cos2\beta\,M_2 $$
 
 use super::Mueller;
+use crate::lanes::WIDTH;
 
 /// The weights of directions, in their order.
 #[derive(Clone, Debug, Default)]
@@ -75,6 +76,13 @@ impl Signed<'_> {
             sum[2][k] += s * m.0[1][k] + c * m.0[2][k];
             sum[3][k] += w * m.0[3][k];
         }
+    }
+
+    /// The weights of a group that begins with direction `first`, 0 behind the last one.
+    pub(crate) fn group(&self, first: usize) -> [[f64; WIDTH]; 3] {
+        let from =
+            |all: &[f64]| std::array::from_fn(|k| all.get(first + k).copied().unwrap_or(0.0));
+        [self.weight, self.cos2b, self.sin2b].map(from)
     }
 
     /// The weights of the directions in `range`.

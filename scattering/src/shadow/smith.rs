@@ -19,7 +19,7 @@ use super::{Shadow, sancer::ROOT_PI};
 use crate::{
     Direction, Incidence,
     geometry::Outgoing,
-    lanes::{Batch, Real, Vectors, WIDTH, with_widest},
+    lanes::{Batch, Real, Vectors, WIDTH, filled_up, with_widest},
     spec::{Class, Laws, Param, ParamError, Spec},
     special::erf::falling_and_scaled,
 };
@@ -97,8 +97,11 @@ impl Shadow for Smith {
         let (directions, rest) = directions.as_chunks();
         let (out, left) = out.as_chunks_mut();
         with_widest(Fractions { smith: self, of_source, directions, out });
-        for (fraction, direction) in left.iter_mut().zip(rest) {
-            *fraction = self.one_ray(direction.sin, direction.cos) * of_source;
+        if let Some(group) = filled_up(rest) {
+            let mut fractions = [[0.0; WIDTH]];
+            let out = &mut fractions;
+            with_widest(Fractions { smith: self, of_source, directions: &[group], out });
+            left.copy_from_slice(&fractions[0][..rest.len()]);
         }
     }
 }

@@ -10,7 +10,7 @@ use super::{
 use crate::{
     Direction, Incidence, Mueller, Side,
     geometry::Outgoing,
-    lanes::{Batch, Complex, Vectors, WIDTH, with_widest},
+    lanes::{Batch, Complex, Vectors, WIDTH, filled_up, with_widest},
     models::Brdf,
     polarization::{Signed, elements, muellers},
 };
@@ -124,7 +124,7 @@ impl Facet {
         directions: &[Direction],
         out: &mut [Mueller],
     ) {
-        let groups = self.groups(directions);
+        let groups = if self.is_bare_from_above() { directions.as_chunks().0 } else { &[] };
         let done = groups.as_flattened().len();
         let (to, left) = out.split_at_mut(done);
         let to = to.as_chunks_mut().0;
@@ -145,16 +145,33 @@ impl Facet {
         weights: Signed<'_>,
     ) -> Mueller {
         let mut sum = Mueller::ZERO;
-        let groups = self.groups(directions);
-        self.with_densities(incidence, groups, |first, directions, densities| {
-            let weights = weights.part(first * WIDTH..(first + directions.len()) * WIDTH);
-            let sum = &mut sum;
-            with_widest(Sums { facet: self, incidence, directions, densities, weights, sum });
-        });
-        for (k, direction) in directions.iter().enumerate().skip(groups.as_flattened().len()) {
-            weights.add(k, &self.mueller(incidence, direction), &mut sum);
+        if !self.is_bare_from_above() {
+            for (k, direction) in directions.iter().enumerate() {
+                weights.add(k, &self.mueller(incidence, direction), &mut sum);
+            }
+            return sum;
+        }
+        let (groups, rest) = directions.as_chunks();
+        self.add_groups(incidence, groups, weights, &mut sum);
+        if let Some(group) = filled_up(rest) {
+            let [weight, cos2b, sin2b] = weights.group(groups.as_flattened().len());
+            let weights = Signed { weight: &weight, cos2b: &cos2b, sin2b: &sin2b, ..weights };
+            self.add_groups(incidence, &[group], weights, &mut sum);
         }
         sum
+    }
+
+    fn add_groups(
+        &self,
+        incidence: &Incidence,
+        directions: &[[Direction; WIDTH]],
+        weights: Signed<'_>,
+        sum: &mut Mueller,
+    ) {
+        self.with_densities(incidence, directions, |first, directions, densities| {
+            let weights = weights.part(first * WIDTH..(first + directions.len()) * WIDTH);
+            with_widest(Sums { facet: self, incidence, directions, densities, weights, sum });
+        });
     }
 
     /// Hands the densities of the slopes that reflect into several directions to `use_them`, with
@@ -165,9 +182,9 @@ impl Facet {
         directions: &[[Direction; WIDTH]],
         mut use_them: impl FnMut(usize, &[[Direction; WIDTH]], &[[f64; WIDTH]]),
     ) {
+        let mut slopes = [[[0.0; WIDTH]; 2]; GROUPS];
+        let mut densities = [[0.0; WIDTH]; GROUPS];
         for (part, directions) in directions.chunks(GROUPS).enumerate() {
-            let mut slopes = [[[0.0; WIDTH]; 2]; GROUPS];
-            let mut densities = [[0.0; WIDTH]; GROUPS];
             let slopes = &mut slopes[..directions.len()];
             let densities = &mut densities[..directions.len()];
             with_widest(Slopes { incidence, directions, out: slopes });
@@ -199,10 +216,8 @@ impl Facet {
         Several { jones, weight, is_delicate }
     }
 
-    /// The first directions that go through [`Facet::several`]: all but the last few where bare
-    /// facets reflect from above, else none.
-    fn groups<'d>(&self, directions: &'d [Direction]) -> &'d [[Direction; WIDTH]] {
-        let applies = self.common.side == Side::DownUp && self.films.is_bare();
-        if applies { directions.as_chunks().0 } else { &[] }
+    /// Whether directions go through [`Facet::several`].
+    fn is_bare_from_above(&self) -> bool {
+        self.common.side == Side::DownUp && self.films.is_bare()
     }
 }
