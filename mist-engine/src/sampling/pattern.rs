@@ -12,7 +12,7 @@ pub(super) enum Pattern {
     /// One point, the centre.
     One,
     /// x = i `step`, y = j `step` for i and j from −`most` to `most`, j fastest.
-    Grid { step: f64, most: i64, radius: f64 },
+    Grid { step: f64, most: i32, radius: f64 },
     /// `count` points, each drawn by its own number.
     Random { count: u64, seed: u64, radius: f64 },
 }
@@ -25,7 +25,7 @@ impl Pattern {
             let count = u64::try_from(count).unwrap_or(0);
             return Self::Random { count, seed: sampling.seed, radius };
         }
-        let most = i64::from(truncated(2.0 * radius / step + 0.5) / 2);
+        let most = truncated(2.0 * radius / step + 0.5) / 2;
         Self::Grid { step, most, radius }
     }
 
@@ -34,7 +34,7 @@ impl Pattern {
         match *self {
             Self::One => 1,
             Self::Grid { most, .. } if most < 0 => 0,
-            Self::Grid { most, .. } => (2 * most.cast_unsigned() + 1).pow(2),
+            Self::Grid { most, .. } => (2 * u64::from(most.cast_unsigned()) + 1).pow(2),
             Self::Random { count, .. } => count,
         }
     }
@@ -54,6 +54,7 @@ impl Pattern {
         match *self {
             Self::One => points.push(0.0, [0.0]),
             Self::Grid { step, most, radius } => {
+                let most = i64::from(most);
                 let (side, end) = (2 * most + 1, range.end.cast_signed());
                 let mut next = range.start.cast_signed();
                 while next < end {
@@ -61,9 +62,10 @@ impl Pattern {
                     let last = most.min(first + (end - next) - 1);
                     next += last - first + 1;
                     let x = i as f64 * step;
-                    let reach = reach(x, step, most, radius);
-                    let column = first.max(-reach)..last.min(reach) + 1;
-                    points.push(x, column.map(|j| j as f64 * step));
+                    let reach = i64::from(reach(x, step, most as i32, radius));
+                    // Of 32 bits, from which vectors of numbers are made at once.
+                    let (first, last) = (first.max(-reach) as i32, last.min(reach) as i32);
+                    points.push(x, (first..last + 1).map(|j| f64::from(j) * step));
                 }
             }
             Self::Random { seed, radius, .. } => {
@@ -77,13 +79,13 @@ impl Pattern {
 }
 
 /// The largest j ≤ `most` for which (x, j `step`) lies in the disk, rim included; −1 if none does.
-fn reach(x: f64, step: f64, most: i64, radius: f64) -> i64 {
-    let is_in_disk = |j: i64| {
-        let y = j as f64 * step;
+fn reach(x: f64, step: f64, most: i32, radius: f64) -> i32 {
+    let is_in_disk = |j: i32| {
+        let y = f64::from(j) * step;
         x * x + y * y <= radius * radius
     };
     // The root may be off by its rounding.
-    let mut reach = (((radius * radius - x * x).max(0.0).sqrt() / step) as i64).clamp(0, most);
+    let mut reach = (((radius * radius - x * x).max(0.0).sqrt() / step) as i32).clamp(0, most);
     while reach >= 0 && !is_in_disk(reach) {
         reach -= 1;
     }
@@ -163,14 +165,14 @@ mod tests {
     fn columns_end_where_the_disk_ends_whatever_the_rounding() {
         for k in 0..400 {
             let (step, radius) = (0.01 + 1e-3 * f64::from(k % 7), 0.05 * f64::from(k));
-            let most = (2.0 * radius / step + 0.5) as i64 / 2;
+            let most = (2.0 * radius / step + 0.5) as i32 / 2;
             for i in -most..=most {
-                let x = i as f64 * step;
-                let is_in_disk = |j: &i64| {
-                    let y = *j as f64 * step;
+                let x = f64::from(i) * step;
+                let is_in_disk = |j: &i32| {
+                    let y = f64::from(*j) * step;
                     x * x + y * y <= radius * radius
                 };
-                let want = (0..=most).take_while(is_in_disk).count() as i64 - 1;
+                let want = (0..=most).take_while(is_in_disk).count() as i32 - 1;
                 assert_eq!(reach(x, step, most, radius), want, "{x} {step} {radius}");
             }
         }
