@@ -54,20 +54,24 @@ impl<'a> Gather<'a> {
             if self.part.as_ref().is_some_and(|part| index >= part.end) {
                 break;
             }
-            let step = self.replay.next_step().map_err(|fault| at_step(index, fault))?;
-            let Some(step) = step else { break };
+            // Steps are large: they go from where they are made to their place.
+            match self.replay.next_step() {
+                Ok(Some(step)) => block.push(step),
+                Ok(None) => break,
+                Err(fault) => return Err(at_step(index, fault)),
+            }
             self.next += 1;
             self.job.within_limit(self.next)?;
             if self.part.as_ref().is_some_and(|part| index < part.start) {
+                block.pop();
                 if self.control.is_cancelled() {
                     return Err(Failure::Cancelled);
                 }
-                continue;
+            } else if let Some(step) = block.last() {
+                self.cost += price(self.job, step)?;
+                // Computed here, so that lanes do it side by side.
+                step.parameters.fingerprint();
             }
-            self.cost += price(self.job, &step)?;
-            // Computed here, so that lanes do it side by side.
-            step.parameters.fingerprint();
-            block.push(step);
         }
         Ok(())
     }

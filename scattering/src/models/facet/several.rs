@@ -182,9 +182,9 @@ impl Facet {
         directions: &[[Direction; WIDTH]],
         mut use_them: impl FnMut(usize, &[[Direction; WIDTH]], &[[f64; WIDTH]]),
     ) {
-        let mut slopes = [[[0.0; WIDTH]; 2]; GROUPS];
-        let mut densities = [[0.0; WIDTH]; GROUPS];
         for (part, directions) in directions.chunks(GROUPS).enumerate() {
+            let mut slopes = [[[0.0; WIDTH]; 2]; GROUPS];
+            let mut densities = [[0.0; WIDTH]; GROUPS];
             let slopes = &mut slopes[..directions.len()];
             let densities = &mut densities[..directions.len()];
             with_widest(Slopes { incidence, directions, out: slopes });
