@@ -29,7 +29,7 @@ use crate::{
 };
 
 /// Steps that are replayed before they are evaluated together.
-const BLOCK_STEPS: usize = 1024;
+const BLOCK_STEPS: usize = 256;
 /// Evaluations after which a block is closed, so that progress is seen and a wish to stop heard.
 const BLOCK_EVALUATIONS: f64 = 2e6;
 

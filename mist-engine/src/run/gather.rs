@@ -36,7 +36,7 @@ impl<'a> Gather<'a> {
 
     /// The steps of the next block, at most `most`; empty behind the last step.
     pub(super) fn block(&mut self, most: usize) -> Result<Vec<Step>, Failure> {
-        let mut block = Vec::new();
+        let mut block = Vec::with_capacity(most);
         self.add(&mut block, most, BLOCK_EVALUATIONS)?;
         Ok(block)
     }
