@@ -82,6 +82,7 @@ impl Expr {
     /// Without it, the slots are the places in that list.
     pub fn bind(&mut self, mut slot: impl FnMut(&str) -> u32) {
         self.slots = self.names.iter().map(|name| slot(name)).collect();
+        self.short = scalar::shorten(&self.steps, &self.files, &self.slots);
     }
 
     /// The slots given by [`Expr::bind`], parallel to [`Expr::names`].
@@ -117,7 +118,7 @@ impl Expr {
     /// Computes the value the short way, if it is a single number of single numbers and nothing
     /// fails; else [`Expr::eval`] finds out.
     pub fn short_number(&self, scope: &mut impl Scope, stack: &mut Stack) -> Option<f64> {
-        self.short.as_ref().and_then(|code| scalar::run(code, self, scope, &mut stack.memo))
+        self.short.as_ref().and_then(|code| scalar::run(code, &self.files, scope, &mut stack.memo))
     }
 }
 

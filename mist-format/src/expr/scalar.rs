@@ -4,10 +4,10 @@
 //! machine (`eval.rs`) stay empty; what is left are operations on a short stack whose top is in a
 //! register. The general machine takes over wherever that does not hold, and finds the errors.
 
+use super::Function;
 use super::eval::{Scope, signed};
 use super::memo::Memo;
 use super::op::{Action, Op, Step};
-use super::{Expr, Function};
 use crate::number::whole_number;
 
 /// Numbers below the top that a program may need.
@@ -18,7 +18,7 @@ const DEPTH: usize = 16;
 pub(super) enum Code {
     /// Pushes a number.
     Number(f64),
-    /// Pushes the variable in this place of [`Expr::names`].
+    /// Pushes the variable in this slot.
     Variable(u32),
     /// Changes the sign of the top.
     Negate,
@@ -44,9 +44,9 @@ pub(super) enum Code {
     File { file: u32, with_column: bool, library: bool },
 }
 
-/// The short program of `steps`, if they have one.
-pub(super) fn shorten(steps: &[Step], files: &[String]) -> Option<Vec<Code>> {
-    let mut writer = Writer { code: Vec::new(), frames: vec![Vec::new()], depth: 0, files };
+/// The short program of `steps` with these files and slots of names, if they have one.
+pub(super) fn shorten(steps: &[Step], files: &[String], slots: &[u32]) -> Option<Vec<Code>> {
+    let mut writer = Writer { code: Vec::new(), frames: vec![Vec::new()], depth: 0, files, slots };
     for step in steps {
         writer.step(step.action)?;
     }
@@ -68,6 +68,7 @@ struct Writer<'a> {
     /// How many numbers lie on the stack, all frames together.
     depth: usize,
     files: &'a [String],
+    slots: &'a [u32],
 }
 
 impl Writer<'_> {
@@ -75,7 +76,7 @@ impl Writer<'_> {
         match action {
             Action::Number(x) => self.push(Code::Number(x)),
             Action::Variable { name, negative, .. } => {
-                self.push(Code::Variable(name))?;
+                self.push(Code::Variable(self.slots[name as usize]))?;
                 self.negate_if(negative);
                 Some(())
             }
@@ -144,7 +145,7 @@ impl Writer<'_> {
         self.depth -= 1;
         let code = match self.code.last()? {
             Code::Number(x) => Code::WithNumber(op, *x),
-            Code::Variable(name) => Code::WithVariable(op, *name),
+            Code::Variable(slot) => Code::WithVariable(op, *slot),
             _ => {
                 self.code.push(Code::Binary(op));
                 return Some(());
@@ -183,7 +184,7 @@ impl Writer<'_> {
 /// Runs a short program; none where a name is unknown or holds a vector, or a look-up fails.
 pub(super) fn run(
     code: &[Code],
-    expr: &Expr,
+    files: &[String],
     scope: &mut impl Scope,
     memo: &mut Memo,
 ) -> Option<f64> {
@@ -196,10 +197,10 @@ pub(super) fn run(
                 height += 1;
                 top = x;
             }
-            Code::Variable(name) => {
+            Code::Variable(slot) => {
                 stack[height] = top;
                 height += 1;
-                top = variable(name, expr, scope)?;
+                top = scope.number(slot)?;
             }
             Code::Negate => top = signed(top, true),
             Code::Binary(op) => {
@@ -207,16 +208,16 @@ pub(super) fn run(
                 top = op.apply(stack[height], top);
             }
             Code::WithNumber(op, x) => top = op.apply(top, x),
-            Code::WithVariable(op, name) => top = op.apply(top, variable(name, expr, scope)?),
-            Code::OfNumber(op, name, x) => {
+            Code::WithVariable(op, slot) => top = op.apply(top, scope.number(slot)?),
+            Code::OfNumber(op, slot, x) => {
                 stack[height] = top;
                 height += 1;
-                top = op.apply(variable(name, expr, scope)?, x);
+                top = op.apply(scope.number(slot)?, x);
             }
             Code::OfVariable(op, left, right) => {
                 stack[height] = top;
                 height += 1;
-                top = op.apply(variable(left, expr, scope)?, variable(right, expr, scope)?);
+                top = op.apply(scope.number(left)?, scope.number(right)?);
             }
             Code::One(function) => top = function.of_one(top),
             Code::Slow(function) => top = memo.value(function, top),
@@ -237,14 +238,9 @@ pub(super) fn run(
                 if library && column < 2 {
                     return None;
                 }
-                top = scope.table(&expr.files[file as usize], x, column).ok()?;
+                top = scope.table(&files[file as usize], x, column).ok()?;
             }
         }
     }
     Some(top)
-}
-
-#[inline]
-fn variable(name: u32, expr: &Expr, scope: &impl Scope) -> Option<f64> {
-    scope.number(expr.slots[name as usize])
 }

@@ -41,10 +41,10 @@ pub(super) fn compile(text: &str, rules: Rules) -> Result<Expr, ExprError> {
     if let Err((start, end, kind)) = scan.run() {
         return Err(ExprError { span: scan.span(start, end), kind });
     }
-    let slots = (0..scan.names.list.len() as u32).collect();
+    let slots: Vec<u32> = (0..scan.names.list.len() as u32).collect();
     let (names, files, calls) = (scan.names.list, scan.files.list, scan.calls.list);
     let steps = scan.steps;
-    let short = scalar::shorten(&steps, &files);
+    let short = scalar::shorten(&steps, &files, &slots);
     Ok(Expr { text: text.to_owned(), steps, short, names, slots, files, calls })
 }
 
