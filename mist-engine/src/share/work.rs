@@ -57,7 +57,7 @@ type Numbered = (u64, Place);
 /// The directions of a piece of work.
 #[derive(Clone)]
 enum Place {
-    Point(f64, f64),
+    Point(Direction),
     Area(Arc<Layout>),
     Adaptive(Arc<(Region, Demand)>),
 }
@@ -135,6 +135,8 @@ struct Todo {
     /// The integrals that were looked at last, and where they collect light.
     integrals: Option<Arc<Vec<Integral>>>,
     apertures: Vec<(Aperture, Place)>,
+    /// The beam that was looked at last, by its polar angle and rotation.
+    beam: Option<([f64; 2], Incidence)>,
 }
 
 impl Todo {
@@ -163,6 +165,24 @@ impl Todo {
         self.apertures.clear();
     }
 
+    /// The beam of `step`.
+    fn beam_of(&mut self, step: &Step) -> Incidence {
+        let angles = [step.theta_i, step.rotation];
+        match self.beam {
+            Some((before, beam)) if before.map(f64::to_bits) == angles.map(f64::to_bits) => beam,
+            _ => self.next_beam(angles),
+        }
+    }
+
+    /// Apart from the other, else its sines are computed whether they are wanted or not.
+    #[cold]
+    #[inline(never)]
+    fn next_beam(&mut self, angles: [f64; 2]) -> Incidence {
+        let beam = Incidence::new(angles[0], angles[1]);
+        self.beam = Some((angles, beam));
+        beam
+    }
+
     /// Where `integrals` collect light.
     fn look_at(&mut self, integrals: &Arc<Vec<Integral>>, layouts: &Map<LayoutKey, Numbered>) {
         if self.integrals.as_ref().is_some_and(|before| Arc::ptr_eq(before, integrals)) {
@@ -172,7 +192,8 @@ impl Todo {
         self.apertures.clear();
         self.apertures.extend(integrals.iter().map(|integral| match &integral.region {
             Region::Differential { center: (theta, phi) } => {
-                (Aperture::Point(theta.to_bits(), phi.to_bits()), Place::Point(*theta, *phi))
+                let direction = Direction::new(*theta, *phi);
+                (Aperture::Point(theta.to_bits(), phi.to_bits()), Place::Point(direction))
             }
             _ => {
                 let (id, place) = &layouts[&integral.layout_key()];
@@ -309,8 +330,8 @@ impl<'a> Shared<'a> {
                 let found = self.integrals.get(&key).cloned();
                 if found.is_none() {
                     let cell = self.models.cell(&step.parameters);
-                    let incidence = Incidence::new(step.theta_i, step.rotation);
                     let (place, wanted_by) = (place.clone(), (at, number));
+                    let incidence = todo.beam_of(step);
                     todo.work.push(Work { key, cell, incidence, place, found: here, wanted_by });
                 }
                 todo.found.push(found.unwrap_or(Found { matrix: Mueller::ZERO, error: None }));
@@ -432,15 +453,14 @@ impl Work {
         let exact = |(matrix, count)| (Found { matrix, error: None }, count);
         let built = || self.cell.get().map_err(|error| Undone::Parameter(error.clone()));
         match &self.place {
-            Place::Point(theta, phi) => {
-                let direction = Direction::new(*theta, *phi);
+            Place::Point(direction) => {
                 if !(self.incidence.is_above() && direction.is_above()) {
                     // NIST's program does not ask the model here either, so its errors do not
                     // matter.
                     return Ok(exact((Mueller::ZERO, 1)));
                 }
                 let mut out = [Mueller::ZERO];
-                built()?.model.evaluate(&self.incidence, &[direction], basis, &mut out);
+                built()?.model.evaluate(&self.incidence, &[*direction], basis, &mut out);
                 Ok(exact((out[0] * direction.cos, 1)))
             }
             Place::Area(layout) => {
