@@ -45,7 +45,7 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
 };
 
 struct Smith {
-    /// μ/√2w over μ.
+    /// 1/√2w.
     scale: f64,
 }
 
@@ -56,7 +56,7 @@ impl Smith {
     /// g of a ray, or of several.
     ///
     /// With x = μ/√2w and erfc x = e^{−x²} f/(1 + 2x), numerator and denominator are taken times
-    /// √π x (1 + 2x): then only one division is left.
+    /// √π x (1 + 2x): one division instead of three.
     #[inline(always)]
     fn one_ray<R: Real>(&self, sin: R, cos: R) -> R {
         let x = cos / sin.abs() * self.scale;
