@@ -24,7 +24,7 @@ mod integrand;
 mod peaks;
 mod rays;
 
-use cell::{Cell, NODES};
+use cell::{Cell, Fan, NODES};
 use integrand::Integrand;
 use rays::Rays;
 
@@ -127,7 +127,7 @@ pub(crate) fn nodes(
     let mut cubature = Cubature::new(&integrand, region, &|| false)?;
     cubature.refine(demand)?;
     for measured in &cubature.cells {
-        let (at, _) = measured.cell.nodes(&cubature.rays);
+        let (at, _) = measured.cell.nodes(&measured.cell.fan(&cubature.rays));
         let mut values = [Mueller::ZERO; NODES];
         integrand.values(&at, &mut values);
         for (v, m) in at.iter().zip(&values).filter(|(v, _)| v.z > 0.0) {
@@ -203,9 +203,15 @@ impl<'a> Cubature<'a> {
     fn measure(&mut self, cells: Vec<Cell>) -> Result<Vec<Measured>, AdaptiveError> {
         let (rays, integrand, stop) = (&self.rays, self.integrand, self.stop);
         self.evaluations += (NODES * cells.len()) as u64;
-        let measured: Option<Vec<Measured>> = cells
+        // Cells behind each other on the same rays, as most are, share them.
+        let groups: Vec<&[Cell]> = cells.chunk_by(Cell::shares_rays).collect();
+        let fans: Vec<Fan> = groups.par_iter().map(|cells| cells[0].fan(rays)).collect();
+        let on_fans = groups.iter().zip(&fans);
+        let pieces: Vec<(Cell, &Fan)> =
+            on_fans.flat_map(|(cells, fan)| cells.iter().map(move |cell| (*cell, fan))).collect();
+        let measured: Option<Vec<Measured>> = pieces
             .into_par_iter()
-            .map(|cell| (!stop()).then(|| cell.measure(rays, integrand)))
+            .map(|(cell, fan)| (!stop()).then(|| cell.measure(fan, integrand)))
             .collect();
         measured.ok_or(AdaptiveError::Stopped)
     }

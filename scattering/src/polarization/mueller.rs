@@ -81,6 +81,7 @@ impl Mul<f64> for Mueller {
 }
 
 impl MulAssign<f64> for Mueller {
+    #[inline]
     fn mul_assign(&mut self, factor: f64) {
         for row in &mut self.0 {
             for x in row {
@@ -108,6 +109,7 @@ impl Add for Mueller {
 }
 
 impl AddAssign for Mueller {
+    #[inline]
     fn add_assign(&mut self, r: Self) {
         for (row, other) in self.0.iter_mut().zip(r.0) {
             for (x, y) in row.iter_mut().zip(other) {

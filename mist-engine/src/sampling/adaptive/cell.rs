@@ -1,9 +1,16 @@
 //! One rectangle of the adaptive subdivision, and its pair of rules.
 
 use glam::DVec3;
-use scattering::Mueller;
+use scattering::{
+    Mueller,
+    lanes::{Batch, Real, Vectors, WIDTH, with_widest},
+};
 
-use super::{Measured, integrand::Integrand, rays::Rays};
+use super::{
+    Measured,
+    integrand::Integrand,
+    rays::{Ray, Rays},
+};
 
 /// A rectangle [s₀, s₁] × [u₀, u₁] of the unit square of one interval of one slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +38,9 @@ const NODE: [f64; SIDE] = [
     0.774_596_669_241_483_377,
     0.960_491_268_708_020_283,
 ];
+
+/// The rays on which the nodes of a cell lie.
+pub(super) type Fan = [Ray; SIDE];
 
 /// Weights of the Kronrod rule.
 const KRONROD: [f64; SIDE] = [
@@ -60,25 +70,38 @@ impl Cell {
         [Self { u: (self.u.0, middle), ..self }, Self { u: (middle, self.u.1), ..self }]
     }
 
+    /// Whether its nodes lie on the same rays as those of `other`.
+    pub(super) fn shares_rays(&self, other: &Self) -> bool {
+        (self.slice, self.interval, self.s) == (other.slice, other.interval, other.s)
+    }
+
+    /// The rays on which its nodes lie.
+    pub(super) fn fan(&self, rays: &Rays) -> Fan {
+        let (s, ds) = half(self.s);
+        NODE.map(|node| rays.ray(self.slice, self.interval, s + ds * node))
+    }
+
     /// The integral over the cell with its error.
-    pub(super) fn measure(self, rays: &Rays, integrand: &Integrand<'_>) -> Measured {
-        let (at, jacobian) = self.nodes(rays);
+    pub(super) fn measure(self, fan: &Fan, integrand: &Integrand<'_>) -> Measured {
+        let (at, jacobian) = self.nodes(fan);
         let mut values = [Mueller::ZERO; NODES];
         integrand.values(&at, &mut values);
         for (value, factor) in values.iter_mut().zip(jacobian) {
             // Directions of no weight lie on the edge of the region, at worst on the horizon.
-            *value = if factor == 0.0 { Mueller::ZERO } else { *value * factor };
+            if factor == 0.0 {
+                *value = Mueller::ZERO;
+            } else {
+                *value *= factor;
+            }
         }
         judge(self, &values)
     }
 
-    /// The directions of the nodes, and the solid angle per area of [−1, 1]².
-    pub(super) fn nodes(&self, rays: &Rays) -> ([DVec3; NODES], [f64; NODES]) {
+    /// The directions of the nodes on their rays, and the solid angle per area of [−1, 1]².
+    pub(super) fn nodes(&self, fan: &Fan) -> ([DVec3; NODES], [f64; NODES]) {
         let (mut at, mut jacobian) = ([DVec3::Z; NODES], [0.0; NODES]);
-        let half = |(from, to): (f64, f64)| (0.5 * (from + to), 0.5 * (to - from));
-        let ((s, ds), (u, du)) = (half(self.s), half(self.u));
-        for i in 0..SIDE {
-            let ray = rays.ray(self.slice, self.interval, s + ds * NODE[i]);
+        let ((_, ds), (u, du)) = (half(self.s), half(self.u));
+        for (i, ray) in fan.iter().enumerate() {
             for j in 0..SIDE {
                 let (v, per_area) = ray.at(u + du * NODE[j]);
                 at[SIDE * i + j] = v;
@@ -89,20 +112,16 @@ impl Cell {
     }
 }
 
+/// The middle of an interval and half its length.
+fn half((from, to): (f64, f64)) -> (f64, f64) {
+    (0.5 * (from + to), 0.5 * (to - from))
+}
+
 /// Integral and error from the values at the nodes, p slow and t fast.
 fn judge(cell: Cell, values: &[Mueller; NODES]) -> Measured {
-    let [mut best, mut gauss_p, mut gauss_t] = [Mueller::ZERO; 3];
-    for (i, row) in values.chunks_exact(SIDE).enumerate() {
-        let [mut kronrod, mut gauss] = [Mueller::ZERO; 2];
-        for (j, value) in row.iter().enumerate() {
-            kronrod += *value * KRONROD[j];
-            gauss += *value * GAUSS[j];
-        }
-        best += kronrod * KRONROD[i];
-        gauss_p += kronrod * GAUSS[i];
-        gauss_t += gauss * KRONROD[i];
-    }
-    let spread = spread(values, &(best * 0.25));
+    let mut sums = Sums::default();
+    with_widest(Summing { values, sums: &mut sums });
+    let Sums { best, gauss_p, gauss_t, spread } = sums;
     let mut error = Mueller::ZERO;
     let (mut worst_p, mut worst_t) = (0.0_f64, 0.0_f64);
     for row in 0..4 {
@@ -116,19 +135,59 @@ fn judge(cell: Cell, values: &[Mueller; NODES]) -> Measured {
     Measured { cell, matrix: best, error, along_p: worst_p > worst_t }
 }
 
-/// The integral of the distance from the `mean` value.
-fn spread(values: &[Mueller; NODES], mean: &Mueller) -> Mueller {
-    let mut sum = Mueller::ZERO;
-    for (k, value) in values.iter().enumerate() {
-        let weight = KRONROD[k / SIDE] * KRONROD[k % SIDE];
-        for row in 0..4 {
-            for column in 0..4 {
-                let distance = (value.0[row][column] - mean.0[row][column]).abs();
-                sum.0[row][column] += weight * distance;
+/// What the rules make of the values of a cell.
+#[derive(Default)]
+struct Sums {
+    /// Kronrod's rule along both sides.
+    best: Mueller,
+    /// Gauss's rule along p.
+    gauss_p: Mueller,
+    /// Gauss's rule along t.
+    gauss_t: Mueller,
+    /// The integral of the distance from the mean value.
+    spread: Mueller,
+}
+
+/// The sums, several elements at a time.
+struct Summing<'a> {
+    values: &'a [Mueller; NODES],
+    sums: &'a mut Sums,
+}
+
+impl Batch for Summing<'_> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self { values, sums } = self;
+        let zero = vectors.load(&[0.0; WIDTH]);
+        for part in 0..16 / WIDTH {
+            let [mut best, mut gauss_p, mut gauss_t, mut spread] = [zero; 4];
+            for (i, row) in values.chunks_exact(SIDE).enumerate() {
+                let [mut kronrod, mut gauss] = [zero; 2];
+                for (j, value) in row.iter().enumerate() {
+                    let value = vectors.load(&value.0.as_flattened().as_chunks().0[part]);
+                    kronrod = kronrod + value * KRONROD[j];
+                    gauss = gauss + value * GAUSS[j];
+                }
+                best = best + kronrod * KRONROD[i];
+                gauss_p = gauss_p + kronrod * GAUSS[i];
+                gauss_t = gauss_t + gauss * KRONROD[i];
+            }
+            let mean = best * 0.25;
+            for (k, value) in values.iter().enumerate() {
+                let value = vectors.load(&value.0.as_flattened().as_chunks().0[part]);
+                spread = spread + (value - mean).abs() * (KRONROD[k / SIDE] * KRONROD[k % SIDE]);
+            }
+            let all = [
+                (&mut sums.best, best),
+                (&mut sums.gauss_p, gauss_p),
+                (&mut sums.gauss_t, gauss_t),
+                (&mut sums.spread, spread),
+            ];
+            for (sum, numbers) in all {
+                sum.0.as_flattened_mut().as_chunks_mut().0[part] = vectors.store(numbers);
             }
         }
     }
-    sum
 }
 
 /// The error of the better rule from the disagreement of the two.

@@ -11,8 +11,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
-
 use scattering::models::Spot;
+use smallvec::{SmallVec, smallvec};
 
 use super::{cell::Cell, peaks::Peak};
 use crate::region::{Polygon, Region, RegionError, above_horizon, refuse_crossing, unit};
@@ -65,6 +65,9 @@ pub(super) struct Rays {
     inside: Inside,
     slices: Vec<(f64, f64)>,
 }
+
+/// Intervals of a ray, mostly one or two.
+type Intervals = SmallVec<[(f64, f64); 4]>;
 
 /// One interval of one ray.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +128,7 @@ impl Rays {
             self.split(slice, (0.0, 1.0), SPLITS, &mut parts);
             for (from, to) in parts {
                 let at = [0.1, 0.5, 0.9].map(|x| self.stretches(slice, from + (to - from) * x));
-                let count = at.iter().map(Vec::len).max().unwrap_or(0);
+                let count = at.iter().map(SmallVec::len).max().unwrap_or(0);
                 for interval in 0..count {
                     let lengths = at.iter().filter_map(|all| all.get(interval)).map(|w| w.1 - w.0);
                     let pieces = (lengths.fold(0.0, f64::max) / LONGEST).ceil().max(1.0);
@@ -158,10 +161,10 @@ impl Rays {
     }
 
     /// The intervals of a ray in w.
-    fn stretches(&self, slice: usize, s: f64) -> Vec<(f64, f64)> {
+    fn stretches(&self, slice: usize, s: f64) -> Intervals {
         let (p, _) = self.azimuth(slice, s);
         let stretch = |(a, b)| (self.stretched(a), self.stretched(b));
-        self.intervals(p).into_iter().map(stretch).collect()
+        self.intervals(self.direction(p)).into_iter().map(stretch).collect()
     }
 
     /// The cells with those near to `peak` halved until they are not wider than the peak, and
@@ -207,19 +210,21 @@ impl Rays {
     /// One interval of the ray at s of a slice; an empty one if the ray has fewer.
     pub(super) fn ray(&self, slice: usize, interval: usize, s: f64) -> Ray {
         let (p, per_s) = self.azimuth(slice, s);
-        let (a, b) = self.intervals(p).get(interval).copied().unwrap_or((0.0, 0.0));
-        let w = (self.stretched(a), self.stretched(b));
-        Ray { pole: self.pole, across: self.direction(p), near: self.near, w, per_s }
-    }
-
-    fn direction(&self, p: f64) -> DVec3 {
-        self.across.0 * p.cos() + self.across.1 * p.sin()
-    }
-
-    /// The intervals of t along the ray of azimuth p that belong to the region, in order.
-    fn intervals(&self, p: f64) -> Vec<(f64, f64)> {
         let across = self.direction(p);
-        let mut ends = vec![(0.0, false), (PI, false)];
+        let (a, b) = self.intervals(across).get(interval).copied().unwrap_or((0.0, 0.0));
+        let w = (self.stretched(a), self.stretched(b));
+        Ray { pole: self.pole, across, near: self.near, w, per_s }
+    }
+
+    /// The direction of the ray of azimuth `p`, a quarter turn from the pole.
+    fn direction(&self, p: f64) -> DVec3 {
+        let (sin, cos) = p.sin_cos();
+        self.across.0 * cos + self.across.1 * sin
+    }
+
+    /// The intervals of t along the ray towards `across` that belong to the region, in order.
+    fn intervals(&self, across: DVec3) -> Intervals {
+        let mut ends: SmallVec<[(f64, bool); 8]> = smallvec![(0.0, false), (PI, false)];
         for (k, circle) in self.circles.iter().enumerate() {
             let (a, b) = (self.pole.dot(circle.normal), across.dot(circle.normal));
             let (middle, half) = (b.atan2(a), (circle.cos / a.hypot(b)).acos());
@@ -229,7 +234,7 @@ impl Rays {
             ends.extend(ahead.map(|t| (t, k >= self.edges)));
         }
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut found: Vec<(f64, f64)> = Vec::new();
+        let mut found = Intervals::new();
         for pair in ends.windows(2) {
             let ((a, is_rim), (b, _)) = (pair[0], pair[1]);
             let t = 0.5 * (a + b);
