@@ -56,8 +56,7 @@ impl Films {
         }
         let there = there.unwrap_or(v);
         let y0 = entry.admittance_pair(kappa_squared);
-        let amplitude = |k: usize| (y0[k] + y0[k]).over(v[k][0] * y0[k] + v[k][1]);
-        let (s, p) = (amplitude(0), amplitude(1));
+        let (s, p) = (amplitude(v[0], y0[0]), amplitude(v[1], y0[1]));
         [there[0][0] * s, there[1][0] * p, there[1][1] * p]
     }
 }
@@ -69,6 +68,13 @@ impl Medium {
         let q = root(-kappa_squared + self.epsilon.re, self.epsilon.im);
         [q, q.times(self.inverse_epsilon)]
     }
+}
+
+/// The amplitude of a wave from a medium of the admittance `y0` that arrives as `v`.
+// No closure: those are compiled without the vectors of the processor.
+#[inline(always)]
+fn amplitude<R: Real>(v: [Complex<R>; 2], y0: Complex<R>) -> Complex<R> {
+    (y0 + y0).over(v[0] * y0 + v[1])
 }
 
 /// What the far face of a film without loss turns `v` into at its near face.
