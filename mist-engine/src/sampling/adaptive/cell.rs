@@ -100,15 +100,37 @@ impl Cell {
     /// The directions of the nodes on their rays, and the solid angle per area of [−1, 1]².
     pub(super) fn nodes(&self, fan: &Fan) -> ([DVec3; NODES], [f64; NODES]) {
         let (mut at, mut jacobian) = ([DVec3::Z; NODES], [0.0; NODES]);
-        let ((_, ds), (u, du)) = (half(self.s), half(self.u));
+        with_widest(Placing { cell: self, fan, at: &mut at, jacobian: &mut jacobian });
+        (at, jacobian)
+    }
+}
+
+/// The placing of nodes, ray by ray.
+struct Placing<'a> {
+    cell: &'a Cell,
+    fan: &'a Fan,
+    at: &'a mut [DVec3; NODES],
+    jacobian: &'a mut [f64; NODES],
+}
+
+impl Batch for Placing<'_> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self { cell, fan, at, jacobian } = self;
+        let ((_, ds), (u, du)) = (half(cell.s), half(cell.u));
+        // What fills up the vector means nothing.
+        let mut nodes = [0.0; WIDTH];
+        nodes[..SIDE].copy_from_slice(&NODE);
+        let nodes = vectors.load(&nodes) * du + u;
         for (i, ray) in fan.iter().enumerate() {
+            let (v, per_area) = ray.at(nodes);
+            let [x, y, z] = [vectors.store(v[0]), vectors.store(v[1]), vectors.store(v[2])];
+            let weights = vectors.store(per_area * (ds * du));
             for j in 0..SIDE {
-                let (v, per_area) = ray.at(u + du * NODE[j]);
-                at[SIDE * i + j] = v;
-                jacobian[SIDE * i + j] = per_area * ds * du;
+                at[SIDE * i + j] = DVec3::new(x[j], y[j], z[j]);
+                jacobian[SIDE * i + j] = weights[j];
             }
         }
-        (at, jacobian)
     }
 }
 

@@ -11,7 +11,10 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
-use scattering::models::Spot;
+use scattering::{
+    lanes::{Real, sin_cos_of_half_turn, sinh_cosh},
+    models::Spot,
+};
 use smallvec::{SmallVec, smallvec};
 
 use super::{cell::Cell, peaks::Peak};
@@ -81,17 +84,19 @@ pub(super) struct Ray {
 }
 
 impl Ray {
-    /// The direction at u in 0..1 along the interval, and dΩ/(ds du).
-    pub(super) fn at(&self, u: f64) -> (DVec3, f64) {
+    /// The direction at u in 0..1 along the interval, and dΩ/(ds du); or those of several u.
+    #[inline(always)]
+    pub(super) fn at<R: Real>(&self, u: R) -> ([R; 3], R) {
         let length = self.w.1 - self.w.0;
-        let w = self.w.0 + length * u;
-        let (e, near) = (w.exp(), 0.5 * self.near);
-        // A second exponential for sinh w would cost as much as a facet; where cancellation hurts,
-        // w has its own.
-        let sinh = if w < 0.5 { 2.0 * near * w.sinh() } else { near * (e - 1.0 / e) };
-        let (sin, cos) = sinh.sin_cos();
-        let v = self.pole * cos + self.across * sin;
-        (v, sin * near * (e + 1.0 / e) * length * self.per_s)
+        let [sinh, cosh] = sinh_cosh(u * length + self.w.0);
+        let [sin, cos] = sin_cos_of_half_turn(sinh * self.near);
+        let (pole, across) = (self.pole, self.across);
+        let v = [
+            cos * pole.x + sin * across.x,
+            cos * pole.y + sin * across.y,
+            cos * pole.z + sin * across.z,
+        ];
+        (v, sin * cosh * (self.near * length * self.per_s))
     }
 }
 
@@ -186,7 +191,7 @@ impl Rays {
 
     /// The middle of a cell and how far it reaches along p and along t.
     fn extent(&self, cell: &Cell) -> (DVec3, f64, f64) {
-        let at = |s: f64, u: f64| self.ray(cell.slice, cell.interval, s).at(u).0;
+        let at = |s: f64, u: f64| DVec3::from(self.ray(cell.slice, cell.interval, s).at(u).0);
         let (s, u) = (0.5 * (cell.s.0 + cell.s.1), 0.5 * (cell.u.0 + cell.u.1));
         let along_p = at(cell.s.0, u).distance(at(cell.s.1, u));
         (at(s, u), along_p, at(s, cell.u.0).distance(at(s, cell.u.1)))
