@@ -145,9 +145,9 @@ impl<'j> Replay<'j> {
         }
         self.write_loops()?;
         let listing = self.evaluate_entries()?;
-        let step = self.step(listing).map(Some);
+        let step = self.step(listing)?;
         self.leave_step();
-        step
+        Ok(Some(step))
     }
 
     /// Goes on to step `to` without making the steps before it, as far as the loops go. Only for

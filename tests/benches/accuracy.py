@@ -8,8 +8,8 @@ Reflectance of facets into the hemisphere and into a cone around the mirror dire
 (`integrationmode = 2`): of the settings of `differential` and `polygonsides` below the cheapest whose error is
 small enough, and that of all finer grids too, is timed with NIST's program; which that is, `mist run --compat`
 finds, which has the same grids and values. With `-` in place of NIST's binary only that is shown. Ours is
-`integrationmode = 20`. Errors are relative, against `integrationmode = 20` with `tolerance = 1e-10`. Times are those of whole processes, the median of --runs;
-"per integral" is ours without the start of the process.
+`integrationmode = 20`. Errors are relative, against `integrationmode = 20` with `tolerance = 1e-10`. Times are
+those of whole processes, the median of --runs; "per integral" is ours without the start of the process.
 """
 
 import argparse

@@ -24,7 +24,7 @@ mod integrand;
 mod peaks;
 mod rays;
 
-use cell::{Cell, Fan, NODES};
+use cell::{Cell, NODES};
 use integrand::Integrand;
 use rays::Rays;
 
@@ -205,15 +205,15 @@ impl<'a> Cubature<'a> {
         self.evaluations += (NODES * cells.len()) as u64;
         // Cells behind each other on the same rays, as most are, share them.
         let groups: Vec<&[Cell]> = cells.chunk_by(Cell::shares_rays).collect();
-        let fans: Vec<Fan> = groups.par_iter().map(|cells| cells[0].fan(rays)).collect();
-        let on_fans = groups.iter().zip(&fans);
-        let pieces: Vec<(Cell, &Fan)> =
-            on_fans.flat_map(|(cells, fan)| cells.iter().map(move |cell| (*cell, fan))).collect();
-        let measured: Option<Vec<Measured>> = pieces
+        let measured: Option<Vec<Vec<Measured>>> = groups
             .into_par_iter()
-            .map(|(cell, fan)| (!stop()).then(|| cell.measure(fan, integrand)))
+            .map(|cells| {
+                let fan = cells[0].fan(rays);
+                let measure = |cell: &Cell| (!stop()).then(|| cell.measure(&fan, integrand));
+                cells.par_iter().map(measure).collect()
+            })
             .collect();
-        measured.ok_or(AdaptiveError::Stopped)
+        Ok(measured.ok_or(AdaptiveError::Stopped)?.into_iter().flatten().collect())
     }
 
     fn total(&self) -> Estimate {

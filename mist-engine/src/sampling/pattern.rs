@@ -54,17 +54,16 @@ impl Pattern {
         match *self {
             Self::One => points.push(0.0, [0.0]),
             Self::Grid { step, most, radius } => {
-                let most = i64::from(most);
-                let (side, end) = (2 * most + 1, range.end.cast_signed());
+                let (side, end) = (2 * i64::from(most) + 1, range.end.cast_signed());
                 let mut next = range.start.cast_signed();
                 while next < end {
-                    let (i, first) = (next / side - most, next % side - most);
-                    let last = most.min(first + (end - next) - 1);
-                    next += last - first + 1;
-                    let x = i as f64 * step;
-                    let reach = i64::from(reach(x, step, most as i32, radius));
                     // Of 32 bits, from which vectors of numbers are made at once.
-                    let (first, last) = (first.max(-reach) as i32, last.min(reach) as i32);
+                    let (i, first) = ((next / side) as i32 - most, (next % side) as i32 - most);
+                    let last = i64::from(most).min(i64::from(first) + (end - next) - 1) as i32;
+                    next += i64::from(last - first) + 1;
+                    let x = f64::from(i) * step;
+                    let reach = reach(x, step, most, radius);
+                    let (first, last) = (first.max(-reach), last.min(reach));
                     points.push(x, (first..last + 1).map(|j| f64::from(j) * step));
                 }
             }

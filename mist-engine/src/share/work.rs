@@ -135,8 +135,8 @@ struct Todo {
     /// The integrals that were looked at last, and where they collect light.
     integrals: Option<Arc<Vec<Integral>>>,
     apertures: Vec<(Aperture, Place)>,
-    /// The beam that was looked at last, by its polar angle and rotation.
-    beam: Option<([f64; 2], Incidence)>,
+    /// The beam that was looked at last.
+    beam: Option<Incidence>,
 }
 
 impl Todo {
@@ -167,20 +167,18 @@ impl Todo {
 
     /// The beam of `step`.
     fn beam_of(&mut self, step: &Step) -> Incidence {
-        let angles = [step.theta_i, step.rotation];
+        let angles = [step.theta_i, step.rotation].map(f64::to_bits);
         match self.beam {
-            Some((before, beam)) if before.map(f64::to_bits) == angles.map(f64::to_bits) => beam,
-            _ => self.next_beam(angles),
+            Some(beam) if [beam.theta(), beam.rotation()].map(f64::to_bits) == angles => beam,
+            _ => self.next_beam(step),
         }
     }
 
     /// Apart from the other, else its sines are computed whether they are wanted or not.
     #[cold]
     #[inline(never)]
-    fn next_beam(&mut self, angles: [f64; 2]) -> Incidence {
-        let beam = Incidence::new(angles[0], angles[1]);
-        self.beam = Some((angles, beam));
-        beam
+    fn next_beam(&mut self, step: &Step) -> Incidence {
+        *self.beam.insert(Incidence::new(step.theta_i, step.rotation))
     }
 
     /// Where `integrals` collect light.

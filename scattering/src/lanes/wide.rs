@@ -44,8 +44,8 @@ impl Kind {
     pub(super) fn of_this_processor() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
         let registers = {
-            let v3 = std::iter::from_fn(V3::try_new).map(Self::V3).take(1);
-            std::iter::from_fn(V4::try_new).map(Self::V4).take(1).chain(v3)
+            let [v4, v3] = [V4::try_new().map(Self::V4), V3::try_new().map(Self::V3)];
+            v4.into_iter().chain(v3)
         };
         #[cfg(not(target_arch = "x86_64"))]
         let registers = std::iter::empty();

@@ -20,14 +20,14 @@
 //! M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969); the smooth variant
 //! B. van Ginneken et al., Appl. Opt. 37, 130 (1998).
 
-use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI, PI, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
 use super::Shadow;
 use crate::{
     Direction, Incidence,
     slope::SlopeDistribution,
     spec::{Class, Laws, Node, Param, ParamError, Spec},
-    special::erf::falling_and_scaled,
+    special::erf::{ROOT_PI, falling_and_scaled},
 };
 
 /// How programs name, parameterize and build it.
@@ -162,6 +162,3 @@ pub fn lambda(x: f64) -> f64 {
     let [falling, scaled] = falling_and_scaled(x);
     (falling / (x * ROOT_PI) - falling * scaled / (x * 2.0 + 1.0)) * 0.5
 }
-
-/// √π.
-pub(super) const ROOT_PI: f64 = 2.0 / FRAC_2_SQRT_PI;

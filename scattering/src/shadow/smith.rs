@@ -15,13 +15,13 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::{Shadow, sancer::ROOT_PI};
+use super::Shadow;
 use crate::{
     Direction, Incidence,
     geometry::Outgoing,
     lanes::{Batch, Real, Vectors, WIDTH, filled_up, with_widest},
     spec::{Class, Laws, Param, ParamError, Spec},
-    special::erf::falling_and_scaled,
+    special::erf::{ROOT_PI, falling_and_scaled},
 };
 
 /// How programs name, parameterize and build it.

@@ -9,7 +9,12 @@
 //!
 //! M. M. Shepherd and J. G. Laframboise, Math. Comp. 36, 249 (1981).
 
+use std::f64::consts::FRAC_2_SQRT_PI;
+
 use crate::lanes::{Real, polynomial};
+
+/// √π.
+pub(crate) const ROOT_PI: f64 = 2.0 / FRAC_2_SQRT_PI;
 
 /// Where t = 0.
 const MIDDLE: f64 = 3.75;

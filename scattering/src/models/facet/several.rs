@@ -11,7 +11,7 @@ use crate::{
     Direction, Incidence, Mueller, Side,
     geometry::Outgoing,
     lanes::{Batch, Complex, Vectors, WIDTH, filled_up, with_widest},
-    models::Brdf,
+    models::{Brdf, sum_of},
     polarization::{Signed, elements, muellers},
 };
 
@@ -144,13 +144,12 @@ impl Facet {
         directions: &[Direction],
         weights: Signed<'_>,
     ) -> Mueller {
-        let mut sum = Mueller::ZERO;
         if !self.is_bare_from_above() {
-            for (k, direction) in directions.iter().enumerate() {
-                weights.add(k, &self.mueller(incidence, direction), &mut sum);
-            }
-            return sum;
+            return sum_of(directions, weights, |directions, out| {
+                self.matrices(incidence, directions, out);
+            });
         }
+        let mut sum = Mueller::ZERO;
         let (groups, rest) = directions.as_chunks();
         self.add_groups(incidence, groups, weights, &mut sum);
         if let Some(group) = filled_up(rest) {
