@@ -4,8 +4,9 @@
 //! would send the light. Along each ray p it is a set of intervals of t whose ends are known in
 //! closed form; between the azimuths at which this set changes, (p, t) is mapped smoothly to
 //! unit squares. Along a ray t = ε sinh w, where ε is the width of the peak that a few
-//! evaluations around the pole have shown. The squares are halved where a pair of Gauss and
-//! Kronrod rules disagrees, until the sum of the disagreements is small enough.
+//! evaluations around the pole have shown. The squares are halved where a Kronrod rule is not
+//! yet good enough, until the sum of the errors is small enough and no cell is much longer than its
+//! neighbours ([`balance`]).
 //!
 //! Peaks in the directions of mirror, retro-reflection and refraction are found at any width
 //! ([`peaks`]), and so are the cones into which gratings diffract; the rims of these cut the
@@ -19,6 +20,7 @@ use thiserror::Error;
 
 use crate::region::{Region, RegionError};
 
+mod balance;
 mod cell;
 mod integrand;
 mod peaks;
@@ -142,7 +144,7 @@ struct Measured {
     cell: Cell,
     matrix: Mueller,
     error: Mueller,
-    /// Whether the rules disagree more along p than along t.
+    /// Whether the error along p is larger than that along t.
     along_p: bool,
 }
 
@@ -179,21 +181,18 @@ impl<'a> Cubature<'a> {
             }
             let (largest, error) = (sum.matrix.largest(), sum.error.largest());
             let target = (demand.tolerance * largest).max(FLOOR);
-            if error <= target {
+            let split = if error <= target { balance::too_long(&self.cells) } else { self.worst(target) };
+            if split.is_empty() {
                 return Ok(sum);
             }
-            let split = self.worst(target);
             if self.evaluations + (2 * NODES * split.len()) as u64 > demand.budget {
                 let (tolerance, evaluations) = (demand.tolerance, self.evaluations);
                 let reached = error / largest;
                 return Err(AdaptiveError::Budget { tolerance, reached, evaluations });
             }
-            let halves = split.iter().flat_map(|k| {
-                let Measured { cell, along_p, .. } = self.cells[*k];
-                cell.halves(along_p)
-            });
+            let halves = split.iter().flat_map(|(k, along_p)| self.cells[*k].cell.halves(*along_p));
             let mut halves = self.measure(halves.collect())?.into_iter();
-            for k in split {
+            for (k, _) in split {
                 self.cells[k] = halves.next().expect("a cell has two halves");
                 self.cells.extend(halves.next());
             }
@@ -225,9 +224,9 @@ impl<'a> Cubature<'a> {
         sum
     }
 
-    /// The cells to be halved, in order: those without which the rest would be well below
-    /// `target`.
-    fn worst(&self, target: f64) -> Vec<usize> {
+    /// The cells to be halved, in order, and whether along p: those without which the rest would be
+    /// below `target`.
+    fn worst(&self, target: f64) -> Vec<(usize, bool)> {
         let mut by_error: Vec<(f64, usize)> =
             self.cells.iter().enumerate().map(|(k, c)| (c.error.largest(), k)).collect();
         by_error.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -239,7 +238,7 @@ impl<'a> Cubature<'a> {
                 break;
             }
             rest -= error;
-            chosen.push(k);
+            chosen.push((k, self.cells[k].along_p));
         }
         chosen.sort_unstable();
         chosen
@@ -247,10 +246,10 @@ impl<'a> Cubature<'a> {
 }
 
 /// Cells with errors of less than this part of the worst one wait for the next round.
-const WORTH: f64 = 0.03;
+const WORTH: f64 = 0.1;
 
 /// The part of the allowed error that the cells which are not halved may have.
-const ENOUGH: f64 = 0.25;
+const ENOUGH: f64 = 0.8;
 
 impl Estimate {
     fn is_finite(&self) -> bool {

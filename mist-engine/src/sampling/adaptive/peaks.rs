@@ -25,11 +25,14 @@ const SMALLEST: f64 = 1e-7;
 /// Ratio of the radii of two rings.
 const RATIO: f64 = 3.0;
 
-/// The number of rings; the largest has a radius of 0.16 rad.
-const RINGS: usize = 14;
+/// The number of rings; the largest has a radius of 0.48 rad.
+const RINGS: usize = 15;
 
 /// Directions on a ring.
 const AROUND: usize = 3;
+
+/// Evaluations around a place.
+const PROBES: usize = RINGS * AROUND;
 
 /// Changes of less than this part of the largest value are rounding.
 const ROUNDING: f64 = 1e-8;
@@ -38,14 +41,14 @@ const ROUNDING: f64 = 1e-8;
 const GROWTH: f64 = 1.7;
 
 /// The width of what is as smooth as the largest ring is wide.
-const SMOOTH: f64 = 0.3;
+const SMOOTH: f64 = 1.0;
 
 /// The peaks of `integrand`, the narrowest first, and the number of evaluations.
 ///
 /// The first one stands for the pole of coordinates and may be smooth; the others are peaks.
 pub(super) fn find(integrand: &Integrand<'_>) -> (Vec<Peak>, u64) {
     let places = integrand.gathering();
-    let evaluations = (places.len() * RINGS * AROUND) as u64;
+    let evaluations = (places.len() * PROBES) as u64;
     let mut peaks: Vec<Peak> = places.into_iter().map(|at| measured(integrand, at)).collect();
     // The sort is stable: of equal ones the likeliest stays in front.
     peaks.sort_by(|a, b| a.width.total_cmp(&b.width));
@@ -56,23 +59,23 @@ pub(super) fn find(integrand: &Integrand<'_>) -> (Vec<Peak>, u64) {
 }
 
 fn measured(integrand: &Integrand<'_>, at: DVec3) -> Peak {
-    let rings: [[f64; AROUND]; RINGS] =
-        std::array::from_fn(|k| ring(integrand, at, SMALLEST * RATIO.powi(k as i32)));
-    Peak { at, width: width(&rings) }
-}
-
-/// The values for unpolarized light on the ring of radius `r` around `at`.
-fn ring(integrand: &Integrand<'_>, at: DVec3, r: f64) -> [f64; AROUND] {
     let q = at.any_orthonormal_vector();
-    let (p, (sin, cos)) = (at.cross(q), r.sin_cos());
-    // An odd angle keeps the ring away from the planes of symmetry.
-    let angle = |k: usize| 0.4 + TAU * k as f64 / AROUND as f64;
-    let directions: [DVec3; AROUND] =
-        std::array::from_fn(|k| at * cos + (q * angle(k).cos() + p * angle(k).sin()) * sin);
-    let mut values = [Mueller::ZERO; AROUND];
+    let p = at.cross(q);
+    // An odd angle keeps the rings away from the planes of symmetry.
+    let around: [DVec3; AROUND] = std::array::from_fn(|k| {
+        let (sin, cos) = (0.4 + TAU * k as f64 / AROUND as f64).sin_cos();
+        q * cos + p * sin
+    });
+    let directions: [DVec3; PROBES] = std::array::from_fn(|k| {
+        let (sin, cos) = (SMALLEST * RATIO.powi((k / AROUND) as i32)).sin_cos();
+        at * cos + around[k % AROUND] * sin
+    });
+    let mut values = [Mueller::ZERO; PROBES];
     integrand.values(&directions, &mut values);
     // Directions below the horizon tell nothing.
-    std::array::from_fn(|k| if directions[k].z > 0.0 { values[k][(0, 0)] } else { f64::NAN })
+    let value = |k: usize| if directions[k].z > 0.0 { values[k][(0, 0)] } else { f64::NAN };
+    let rings = std::array::from_fn(|ring| std::array::from_fn(|k| value(AROUND * ring + k)));
+    Peak { at, width: width(&rings) }
 }
 
 /// The radius at which the change from the smallest ring ends.

@@ -21,7 +21,7 @@ use super::{cell::Cell, peaks::Peak};
 use crate::region::{Polygon, Region, RegionError, above_horizon, refuse_crossing, unit};
 
 /// Longest first cell along a ray, in w, where t = ε sinh w.
-const LONGEST: f64 = 1.3;
+const LONGEST: f64 = 2.0;
 
 /// Ends of intervals that move by more than this in w within a first cell divide it.
 const FAR: f64 = 1.3;
@@ -66,7 +66,16 @@ pub(super) struct Rays {
     circles: Vec<Circle>,
     edges: usize,
     inside: Inside,
-    slices: Vec<(f64, f64)>,
+    slices: Vec<Slice>,
+}
+
+/// Azimuths between which the intervals of a ray change smoothly.
+#[derive(Clone, Copy, Debug)]
+struct Slice {
+    from: f64,
+    to: f64,
+    /// Whether a ray at its ends may touch a circle.
+    touches: bool,
 }
 
 /// Intervals of a ray, mostly one or two.
@@ -204,10 +213,13 @@ impl Rays {
 
     /// The azimuth at s in 0..1 of a slice, and dp/ds.
     ///
-    /// Both ends are approached with the square of s: where a ray begins to touch a circle, the
+    /// Ends at which a ray begins to touch a circle are approached with the square of s: there the
     /// interval grows like a square root of the azimuth, but like s.
     fn azimuth(&self, slice: usize, s: f64) -> (f64, f64) {
-        let (from, to) = self.slices[slice];
+        let Slice { from, to, touches } = self.slices[slice];
+        if !touches {
+            return (from + (to - from) * s, to - from);
+        }
         let (sin, cos) = (PI * s).sin_cos();
         (from + (to - from) * 0.5 * (1.0 - cos), (to - from) * 0.5 * PI * sin)
     }
@@ -266,10 +278,12 @@ impl Rays {
     }
 
     /// The slices between the azimuths at which the intervals of a ray change.
-    fn cut(&self, corners: &[DVec3]) -> Vec<(f64, f64)> {
+    fn cut(&self, corners: &[DVec3]) -> Vec<Slice> {
         let seen = |v: &DVec3| v.dot(self.across.1).atan2(v.dot(self.across.0)).rem_euclid(TAU);
         let mut ends: Vec<f64> = corners.iter().map(seen).collect();
-        ends.extend(self.circles.iter().flat_map(|c| self.touching(c)));
+        let touching: Vec<f64> = self.circles.iter().flat_map(|c| self.touching(c)).collect();
+        let touches = !touching.is_empty();
+        ends.extend(touching);
         ends.retain(|p| p.is_finite());
         ends.sort_by(f64::total_cmp);
         ends.dedup_by(|b, a| *b - *a < TINY);
@@ -278,7 +292,7 @@ impl Rays {
             ends.push(first);
         }
         ends.push(first + TAU);
-        ends.windows(2).flat_map(|pair| even(pair[0], pair[1])).collect()
+        ends.windows(2).flat_map(|pair| even(pair[0], pair[1], touches)).collect()
     }
 
     /// The azimuths of the rays that touch a circle.
@@ -296,10 +310,10 @@ impl Rays {
 }
 
 /// A slice in parts that are not too wide.
-fn even(from: f64, to: f64) -> Vec<(f64, f64)> {
+fn even(from: f64, to: f64, touches: bool) -> Vec<Slice> {
     let parts = ((to - from) / WIDEST - 1e-9).ceil().max(1.0);
-    let at = |k: f64| from + (to - from) * k / parts;
-    (0..parts as usize).map(|k| (at(k as f64), at(k as f64 + 1.0))).collect()
+    let at = |k: usize| from + (to - from) * k as f64 / parts;
+    (0..parts as usize).map(|k| Slice { from: at(k), to: at(k + 1), touches }).collect()
 }
 
 /// The circles that bound a region, what is inside, and its corners.
