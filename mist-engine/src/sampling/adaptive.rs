@@ -4,7 +4,7 @@
 //! would send the light. Along each ray p it is a set of intervals of t whose ends are known in
 //! closed form; between the azimuths at which this set changes, (p, t) is mapped smoothly to
 //! unit squares. Along a ray t = ε sinh w, where ε is the width of the peak that a few
-//! evaluations around the pole have shown. The squares are halved where a Kronrod rule is not
+//! evaluations around the pole have shown. The squares are halved where Gauss's rule is not
 //! yet good enough, until the sum of the errors is small enough and no cell is much longer than its
 //! neighbours ([`balance`]).
 //!

@@ -6,8 +6,8 @@
 
 use super::{Measured, cell::Cell};
 
-/// How much longer than its neighbour a cell may be: the seven nodes of the longer one still see
-/// what two cells of the shorter length are needed for.
+/// How much longer than its neighbour a cell may be: its eight nodes are still no further
+/// apart than the shorter one is long.
 const RATIO: f64 = 8.0;
 
 /// One side of a cell, as it meets others.

@@ -8,7 +8,7 @@
 //!
 //! Rims of spots, across which the integrand jumps, end intervals too.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
 use scattering::{
@@ -26,8 +26,14 @@ const LONGEST: f64 = 2.0;
 /// Ends of intervals that move by more than this in w within a first cell divide it.
 const FAR: f64 = 1.3;
 
-/// Halvings of a slice before the first cells are made.
+/// Halvings of a slice before the first cells are made, for the ends of intervals.
 const SPLITS: usize = 6;
+
+/// Halvings towards a ray that touches a circle.
+const MOST_SPLITS: usize = 12;
+
+/// Parts of slices are at most this many times as wide as their distance from such a ray.
+const MOST_HIDDEN: f64 = 16.0;
 
 /// Widest slice, rad.
 const WIDEST: f64 = FRAC_PI_2;
@@ -48,8 +54,8 @@ struct Circle {
 /// What belongs to the region, above the horizon.
 #[derive(Clone, Debug)]
 enum Inside {
-    /// What is inside of the first circle, if there is one, and outside of the second.
-    Caps { outer: Option<Circle>, inner: Option<Circle> },
+    /// What is inside of all edges, or of all but the last one, which is an `inner` rim.
+    Caps { inner: bool },
     /// What the polygon contains in the projection.
     Polygon(Polygon),
 }
@@ -74,8 +80,32 @@ pub(super) struct Rays {
 struct Slice {
     from: f64,
     to: f64,
-    /// Whether a ray at its ends may touch a circle.
-    touches: bool,
+    /// How far before it and behind it a ray touches a circle, rad, if any does.
+    touching: Option<(f64, f64)>,
+}
+
+/// The part |t − `middle`| < `half` of a ray that is within a circle, rad.
+#[derive(Clone, Copy, Debug)]
+struct Arc {
+    /// −π to π.
+    middle: f64,
+    /// 0, where the ray misses the circle, to π, where it never leaves it.
+    half: f64,
+}
+
+impl Arc {
+    /// Where the ray at 0 < t < π crosses the circle.
+    fn crossings(self) -> impl Iterator<Item = f64> {
+        let ends = [self.middle - self.half, self.middle + self.half];
+        let ahead = ends.map(|t| if t < 0.0 { t + TAU } else { t });
+        let crosses = self.half > 0.0 && self.half < PI;
+        ahead.into_iter().filter(move |t| crosses && *t > 0.0 && *t < PI)
+    }
+
+    fn holds(self, t: f64) -> bool {
+        let off = (t - self.middle).abs();
+        off.min(TAU - off) < self.half
+    }
 }
 
 /// Intervals of a ray, mostly one or two.
@@ -138,40 +168,38 @@ impl Rays {
     fn even_cells(&self) -> Vec<Cell> {
         let mut cells = Vec::new();
         for slice in 0..self.slices.len() {
-            let mut parts = Vec::new();
-            self.split(slice, (0.0, 1.0), SPLITS, &mut parts);
-            for (from, to) in parts {
-                let at = [0.1, 0.5, 0.9].map(|x| self.stretches(slice, from + (to - from) * x));
-                let count = at.iter().map(SmallVec::len).max().unwrap_or(0);
-                for interval in 0..count {
-                    let lengths = at.iter().filter_map(|all| all.get(interval)).map(|w| w.1 - w.0);
-                    let pieces = (lengths.fold(0.0, f64::max) / LONGEST).ceil().max(1.0);
-                    for k in 0..pieces as usize {
-                        let u = (k as f64 / pieces, (k + 1) as f64 / pieces);
-                        cells.push(Cell { slice, interval, s: (from, to), u });
-                    }
-                }
-            }
+            self.split(slice, (0.0, 1.0), 0, &mut cells);
         }
         cells
     }
 
-    /// Parts of a slice in which the ends of intervals move by no more than a few LONGEST: where
-    /// an edge passes close to the pole, they run away within a small angle.
-    fn split(&self, slice: usize, s: (f64, f64), depth: usize, parts: &mut Vec<(f64, f64)>) {
+    /// The cells of a part of a slice: of parts of it in which the ends of intervals move by no
+    /// more than FAR, for where an edge passes close to the pole, they run away within a small
+    /// angle, and which hide nothing.
+    fn split(&self, slice: usize, s: (f64, f64), depth: usize, cells: &mut Vec<Cell>) {
         let middle = 0.5 * (s.0 + s.1);
-        let [first, last] = [s.0, s.1].map(|end| {
-            // The ends themselves may touch an edge.
-            self.stretches(slice, end + 1e-3 * (middle - end))
-        });
+        // The ends themselves may touch an edge.
+        let [first, last] =
+            [s.0, s.1].map(|end| self.stretches(slice, end + 1e-3 * (middle - end)));
         let moved = |(a, b): (&(f64, f64), &(f64, f64))| (a.0 - b.0).abs().max((a.1 - b.1).abs());
         let most = first.iter().zip(&last).map(moved).fold(0.0, f64::max);
-        if depth == 0 || most < FAR {
-            parts.push(s);
+        let is_split = most >= FAR && depth < SPLITS
+            || self.slices[slice].hides(s) && depth < MOST_SPLITS;
+        if is_split {
+            self.split(slice, (s.0, middle), depth + 1, cells);
+            self.split(slice, (middle, s.1), depth + 1, cells);
             return;
         }
-        self.split(slice, (s.0, middle), depth - 1, parts);
-        self.split(slice, (middle, s.1), depth - 1, parts);
+        let at = [first, self.stretches(slice, middle), last];
+        let count = at.iter().map(SmallVec::len).max().unwrap_or(0);
+        for interval in 0..count {
+            let lengths = at.iter().filter_map(|all| all.get(interval)).map(|w| w.1 - w.0);
+            let pieces = (lengths.fold(0.0, f64::max) / LONGEST).ceil().max(1.0);
+            for k in 0..pieces as usize {
+                let u = (k as f64 / pieces, (k + 1) as f64 / pieces);
+                cells.push(Cell { slice, interval, s, u });
+            }
+        }
     }
 
     /// The intervals of a ray in w.
@@ -208,7 +236,7 @@ impl Rays {
 
     /// w of t.
     fn stretched(&self, t: f64) -> f64 {
-        (t / self.near).asinh()
+        if t == 0.0 { 0.0 } else { (t / self.near).asinh() }
     }
 
     /// The azimuth at s in 0..1 of a slice, and dp/ds.
@@ -216,8 +244,8 @@ impl Rays {
     /// Ends at which a ray begins to touch a circle are approached with the square of s: there the
     /// interval grows like a square root of the azimuth, but like s.
     fn azimuth(&self, slice: usize, s: f64) -> (f64, f64) {
-        let Slice { from, to, touches } = self.slices[slice];
-        if !touches {
+        let Slice { from, to, touching } = self.slices[slice];
+        if touching.is_none() {
             return (from + (to - from) * s, to - from);
         }
         let (sin, cos) = (PI * s).sin_cos();
@@ -241,21 +269,21 @@ impl Rays {
 
     /// The intervals of t along the ray towards `across` that belong to the region, in order.
     fn intervals(&self, across: DVec3) -> Intervals {
-        let mut ends: SmallVec<[(f64, bool); 8]> = smallvec![(0.0, false), (PI, false)];
-        for (k, circle) in self.circles.iter().enumerate() {
+        let arc = |circle: &Circle| {
             let (a, b) = (self.pole.dot(circle.normal), across.dot(circle.normal));
-            let (middle, half) = (b.atan2(a), (circle.cos / a.hypot(b)).acos());
-            // Half is NaN where the ray misses the circle.
-            let crossings = [middle - half, middle + half].map(|t| t.rem_euclid(TAU));
-            let ahead = crossings.into_iter().filter(|t| *t > 0.0 && *t < PI);
-            ends.extend(ahead.map(|t| (t, k >= self.edges)));
+            let cos = circle.cos / (a * a + b * b).sqrt();
+            Arc { middle: b.atan2(a), half: cos.clamp(-1.0, 1.0).acos() }
+        };
+        let arcs: SmallVec<[Arc; 4]> = self.circles.iter().map(arc).collect();
+        let mut ends: SmallVec<[(f64, bool); 8]> = smallvec![(0.0, false), (PI, false)];
+        for (k, arc) in arcs.iter().enumerate() {
+            ends.extend(arc.crossings().map(|t| (t, k >= self.edges)));
         }
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut found = Intervals::new();
         for pair in ends.windows(2) {
             let ((a, is_rim), (b, _)) = (pair[0], pair[1]);
-            let t = 0.5 * (a + b);
-            if b - a < TINY || !self.holds(self.pole * t.cos() + across * t.sin()) {
+            if b - a < TINY || !self.holds(across, &arcs, 0.5 * (a + b)) {
                 continue;
             }
             match found.last_mut() {
@@ -266,15 +294,18 @@ impl Rays {
         found
     }
 
-    fn holds(&self, v: DVec3) -> bool {
-        v.z > 0.0
-            && match &self.inside {
-                Inside::Caps { outer, inner } => {
-                    outer.is_none_or(|c| v.dot(c.normal) > c.cos)
-                        && inner.is_none_or(|c| v.dot(c.normal) < c.cos)
-                }
-                Inside::Polygon(polygon) => polygon.contains(v.truncate()),
+    /// Whether the point at `t` of a ray, which has these arcs, belongs to the region.
+    fn holds(&self, across: DVec3, arcs: &[Arc], t: f64) -> bool {
+        match &self.inside {
+            Inside::Caps { inner } => {
+                let (outer, inner) = arcs[..self.edges].split_at(self.edges - usize::from(*inner));
+                outer.iter().all(|arc| arc.holds(t)) && !inner.iter().any(|arc| arc.holds(t))
             }
+            Inside::Polygon(polygon) => {
+                let v = self.pole * t.cos() + across * t.sin();
+                v.z > 0.0 && polygon.contains(v.truncate())
+            }
+        }
     }
 
     /// The slices between the azimuths at which the intervals of a ray change.
@@ -282,8 +313,7 @@ impl Rays {
         let seen = |v: &DVec3| v.dot(self.across.1).atan2(v.dot(self.across.0)).rem_euclid(TAU);
         let mut ends: Vec<f64> = corners.iter().map(seen).collect();
         let touching: Vec<f64> = self.circles.iter().flat_map(|c| self.touching(c)).collect();
-        let touches = !touching.is_empty();
-        ends.extend(touching);
+        ends.extend(&touching);
         ends.retain(|p| p.is_finite());
         ends.sort_by(f64::total_cmp);
         ends.dedup_by(|b, a| *b - *a < TINY);
@@ -292,7 +322,7 @@ impl Rays {
             ends.push(first);
         }
         ends.push(first + TAU);
-        ends.windows(2).flat_map(|pair| even(pair[0], pair[1], touches)).collect()
+        ends.windows(2).flat_map(|pair| even(pair[0], pair[1], &touching)).collect()
     }
 
     /// The azimuths of the rays that touch a circle.
@@ -310,10 +340,33 @@ impl Rays {
 }
 
 /// A slice in parts that are not too wide.
-fn even(from: f64, to: f64, touches: bool) -> Vec<Slice> {
+fn even(from: f64, to: f64, touching: &[f64]) -> Vec<Slice> {
     let parts = ((to - from) / WIDEST - 1e-9).ceil().max(1.0);
     let at = |k: usize| from + (to - from) * k as f64 / parts;
-    (0..parts as usize).map(|k| Slice { from: at(k), to: at(k + 1), touches }).collect()
+    let nearest = |distance: &dyn Fn(&f64) -> f64| {
+        let others = touching.iter().map(|p| distance(p).rem_euclid(TAU));
+        others.filter(|d| *d > TINY).fold(TAU, f64::min)
+    };
+    let slice = |k: usize| {
+        let (from, to) = (at(k), at(k + 1));
+        let touching = (!touching.is_empty())
+            .then(|| (nearest(&|p| from - p), nearest(&|p| p - to)));
+        Slice { from, to, touching }
+    };
+    (0..parts as usize).map(slice).collect()
+}
+
+impl Slice {
+    /// Whether `s` is so wide that a ray which touches a circle just outside of the slice could
+    /// hide between the nodes: the lengths of intervals go like a square root there, that of s² + h².
+    fn hides(&self, s: (f64, f64)) -> bool {
+        let Some((before, behind)) = self.touching else { return false };
+        let near = |end: f64, distance: f64| {
+            let h = FRAC_2_PI * (distance / (self.to - self.from)).sqrt();
+            s.1 - s.0 > MOST_HIDDEN * end.hypot(h)
+        };
+        near(s.0, before) || near(1.0 - s.1, behind)
+    }
 }
 
 /// The circles that bound a region, what is inside, and its corners.
@@ -340,7 +393,7 @@ fn boundary(region: &Region) -> Result<(Vec<Circle>, Inside, Vec<DVec3>), Region
             corners.extend(common_points(first, second));
         }
     }
-    Ok((circles, Inside::Caps { outer, inner }, corners))
+    Ok((circles, Inside::Caps { inner: inner.is_some() }, corners))
 }
 
 /// Where two circles cross.
