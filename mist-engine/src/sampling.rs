@@ -29,7 +29,7 @@ pub(crate) mod turn;
 pub(crate) use chunk::{Chunk, Scratch};
 pub use key::LayoutKey;
 
-use chunk::seen;
+use chunk::seen_group;
 use lifting::{Asked, Known};
 use pattern::Pattern;
 use projection::Projection;

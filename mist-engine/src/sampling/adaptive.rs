@@ -129,11 +129,14 @@ pub(crate) fn nodes(
     let mut cubature = Cubature::new(&integrand, region, &|| false)?;
     cubature.refine(demand)?;
     for measured in &cubature.cells {
-        let (at, _) = measured.cell.nodes(&measured.cell.fan(&cubature.rays));
+        let mut at = measured.cell.nodes(&measured.cell.fan(&cubature.rays));
+        at.weights = at.v[2].map(f64::recip);
         let mut values = [Mueller::ZERO; NODES];
         integrand.values(&at, &mut values);
-        for (v, m) in at.iter().zip(&values).filter(|(v, _)| v.z > 0.0) {
-            visit(*v, &(*m * (1.0 / v.z)));
+        for (k, m) in values.iter().enumerate() {
+            if at.v[2][k] > 0.0 {
+                visit(at.at(k), m);
+            }
         }
     }
     Ok(())

@@ -1,6 +1,5 @@
 //! Directions in the form that models and sums take, made of unit vectors.
 
-use glam::DVec3;
 use scattering::{
     Direction,
     lanes::{Batch, Real, Vectors, WIDTH, with_widest},
@@ -62,25 +61,42 @@ impl Batch for Filling<'_> {
         let Weights { weight, cos2b, sin2b } = weights;
         let turns = cos2b.as_chunks_mut().0.iter_mut().zip(sin2b.as_chunks_mut().0);
         let weights = weight.as_chunks_mut().0.iter_mut().zip(turns);
-        for (([x, y, z], from), (weight, (cos2b, sin2b))) in lifted.groups().zip(weights) {
-            let v = [vectors.load(x), vectors.load(y), vectors.load(z)];
-            let [sin, across, sin_phi, cos_phi] = sines(v);
-            let (sin, across) = (vectors.store(sin), vectors.store(across));
-            let (sin_phi, cos_phi) = (vectors.store(sin_phi), vectors.store(cos_phi));
-            let turned = turn.at(v);
+        for ((v, from), (weight, (cos2b, sin2b))) in lifted.groups().zip(weights) {
+            let v = v.map(|part| *part);
+            let turned = turn.at(v.map(|part| vectors.load(&part)));
             *weight = *from;
             *cos2b = vectors.store(turned[0]);
             *sin2b = vectors.store(turned[1]);
-            let mut group = [Direction::from_sin_cos((0.0, 1.0), (0.0, 1.0)); WIDTH];
-            for (k, direction) in group.iter_mut().enumerate() {
-                *direction = Direction::from_sin_cos((sin[k], z[k]), (sin_phi[k], cos_phi[k]));
-                if !(across[k] > 0.0) {
-                    *direction = seen(DVec3::new(x[k], y[k], z[k]));
-                }
-            }
-            directions.extend_from_slice(&group);
+            directions.extend_from_slice(&seen_group(vectors, &v));
         }
     }
+}
+
+/// The directions of several unit vectors above the horizon.
+#[inline(always)]
+pub(super) fn seen_group<V: Vectors>(vectors: V, v: &[[f64; WIDTH]; 3]) -> [Direction; WIDTH] {
+    let [x, y, z] = v;
+    let [sin, across, sin_phi, cos_phi] =
+        sines([vectors.load(x), vectors.load(y), vectors.load(z)]);
+    let (sin, across) = (vectors.store(sin), vectors.store(across));
+    let (sin_phi, cos_phi) = (vectors.store(sin_phi), vectors.store(cos_phi));
+    let mut group = [Direction::from_sin_cos((0.0, 1.0), (0.0, 1.0)); WIDTH];
+    for (k, direction) in group.iter_mut().enumerate() {
+        let azimuth = if across[k] > 0.0 {
+            (sin_phi[k], cos_phi[k])
+        } else {
+            of_the_normal(x[k], y[k])
+        };
+        *direction = Direction::from_sin_cos((sin[k], z[k]), azimuth);
+    }
+    group
+}
+
+/// The sine and the cosine of the azimuth that the signs of its zeros give the normal.
+#[cold]
+#[inline(never)]
+fn of_the_normal(x: f64, y: f64) -> (f64, f64) {
+    y.atan2(x).sin_cos()
 }
 
 /// sin θ, its value without z, sin φ and cos φ of unit vectors.
@@ -90,12 +106,4 @@ fn sines<R: Real>([x, y, z]: [R; 3]) -> [R; 4] {
     let across = (x * x + y * y).sqrt();
     let per_across = z.all(1.0) / across;
     [square.choose(square, z.all(0.0)).sqrt(), across, y * per_across, x * per_across]
-}
-
-/// The direction of the unit vector `v` above the horizon.
-pub(super) fn seen(v: DVec3) -> Direction {
-    let [sin, across, sin_phi, cos_phi] = sines(v.to_array());
-    // The normal has the azimuth that the signs of its zeros give it.
-    let azimuth = if across > 0.0 { (sin_phi, cos_phi) } else { v.y.atan2(v.x).sin_cos() };
-    Direction::from_sin_cos((sin, v.z), azimuth)
 }

@@ -1,6 +1,5 @@
 //! One rectangle of the adaptive subdivision, and its pair of rules.
 
-use glam::DVec3;
 use scattering::{
     Mueller,
     lanes::{Batch, Real, Vectors, WIDTH, with_widest},
@@ -8,7 +7,7 @@ use scattering::{
 
 use super::{
     Measured,
-    integrand::Integrand,
+    integrand::{Integrand, Places},
     rays::{Ray, Rays},
 };
 
@@ -104,25 +103,16 @@ impl Cell {
 
     /// The integral over the cell with its error.
     pub(super) fn measure(self, fan: &Fan, integrand: &Integrand<'_>) -> Measured {
-        let (at, jacobian) = self.nodes(fan);
         let mut values = [Mueller::ZERO; NODES];
-        integrand.values(&at, &mut values);
-        for (value, factor) in values.iter_mut().zip(jacobian) {
-            // Directions of no weight lie on the edge of the region, at worst on the horizon.
-            if factor == 0.0 {
-                *value = Mueller::ZERO;
-            } else {
-                *value *= factor;
-            }
-        }
+        integrand.values(&self.nodes(fan), &mut values);
         judge(self, &values)
     }
 
-    /// The directions of the nodes on their rays, and the solid angle per area of [−1, 1]².
-    pub(super) fn nodes(&self, fan: &Fan) -> ([DVec3; NODES], [f64; NODES]) {
-        let (mut at, mut jacobian) = ([DVec3::Z; NODES], [0.0; NODES]);
-        with_widest(Placing { cell: self, fan, at: &mut at, jacobian: &mut jacobian });
-        (at, jacobian)
+    /// The directions of the nodes on their rays, with the solid angle per area of [−1, 1]².
+    pub(super) fn nodes(&self, fan: &Fan) -> Places<NODES> {
+        let mut at = Places::new();
+        with_widest(Placing { cell: self, fan, at: &mut at });
+        at
     }
 }
 
@@ -130,24 +120,21 @@ impl Cell {
 struct Placing<'a> {
     cell: &'a Cell,
     fan: &'a Fan,
-    at: &'a mut [DVec3; NODES],
-    jacobian: &'a mut [f64; NODES],
+    at: &'a mut Places<NODES>,
 }
 
 impl Batch for Placing<'_> {
     #[inline(always)]
     fn run<V: Vectors>(self, vectors: V) {
-        let Self { cell, fan, at, jacobian } = self;
+        let Self { cell, fan, at: Places { v, weights } } = self;
         let ((_, ds), (u, du)) = (half(cell.s), half(cell.u));
         let nodes = vectors.load(&NODE) * du + u;
         for (i, ray) in fan.iter().enumerate() {
-            let (v, per_area) = ray.at(nodes);
-            let [x, y, z] = [vectors.store(v[0]), vectors.store(v[1]), vectors.store(v[2])];
-            let weights = vectors.store(per_area * (ds * du));
-            for j in 0..SIDE {
-                at[SIDE * i + j] = DVec3::new(x[j], y[j], z[j]);
-                jacobian[SIDE * i + j] = weights[j];
+            let (direction, per_area) = ray.at(nodes);
+            for (all, part) in v.iter_mut().zip(direction) {
+                all.as_chunks_mut().0[i] = vectors.store(part);
             }
+            weights.as_chunks_mut().0[i] = vectors.store(per_area * (ds * du));
         }
     }
 }

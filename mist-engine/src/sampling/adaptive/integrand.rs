@@ -1,13 +1,35 @@
 //! What is integrated: R(β)ᵀ M cos θ as a function of the direction.
 
 use glam::DVec3;
-use scattering::{Basis, Direction, Incidence, Model, Mueller, Side, models::Spot};
+use scattering::{
+    Basis, Direction, Incidence, Model, Mueller, Side,
+    lanes::{Batch, Vectors, WIDTH, with_widest},
+    models::Spot,
+};
 
-use super::{Estimate, cell::NODES};
+use super::Estimate;
 use crate::{
     region::{Angles, Region, unit},
-    sampling::{seen, turn::Turn},
+    sampling::{seen_group, turn::Turn},
 };
+
+/// Unit vectors, component by component, with weights.
+pub(super) struct Places<const N: usize> {
+    pub(super) v: [[f64; N]; 3],
+    pub(super) weights: [f64; N],
+}
+
+impl<const N: usize> Places<N> {
+    /// The direction of the pole, of no weight.
+    pub(super) fn new() -> Self {
+        Self { v: [[0.0; N], [0.0; N], [1.0; N]], weights: [0.0; N] }
+    }
+
+    /// One of the unit vectors.
+    pub(super) fn at(&self, k: usize) -> DVec3 {
+        DVec3::new(self.v[0][k], self.v[1][k], self.v[2][k])
+    }
+}
 
 /// R(β)ᵀ M cos θ of one beam.
 pub(super) struct Integrand<'a> {
@@ -31,23 +53,14 @@ impl<'a> Integrand<'a> {
         Self { model, incidence, basis, turn, flip }
     }
 
-    /// The values at the unit vectors `at`, at most a cell's; zero on and below the horizon.
-    pub(super) fn values(&self, at: &[DVec3], out: &mut [Mueller]) {
-        let mut directions = [Direction::new(0.0, 0.0); NODES];
-        for (direction, v) in directions.iter_mut().zip(at) {
-            *direction = seen(*v);
-        }
-        self.model.evaluate(self.incidence, &directions[..at.len()], self.basis, out);
-        for (m, v) in out.iter_mut().zip(at) {
-            let [c, s] = self.turn.at(v.to_array());
-            let s = self.flip * s;
-            let [first, second] = [m.0[1], m.0[2]];
-            for k in 0..4 {
-                m.0[1][k] = c * first[k] - s * second[k];
-                m.0[2][k] = s * first[k] + c * second[k];
-            }
-            *m *= v.z;
-        }
+    /// The values at `at` times the weights; zero on and below the horizon.
+    pub(super) fn values<const N: usize>(&self, at: &Places<N>, out: &mut [Mueller; N]) {
+        let mut directions = [Direction::from_sin_cos((0.0, 1.0), (0.0, 1.0)); N];
+        let mut turns = [[0.0; N]; 2];
+        let (turn, seen) = (&self.turn, &mut directions);
+        with_widest(Seeing { at, turn, directions: seen, turns: &mut turns });
+        self.model.evaluate(self.incidence, &directions, self.basis, out);
+        with_widest(Weighing { at, turns: &turns, flip: self.flip, out });
     }
 
     /// One direction: nothing is left to estimate, and nothing is turned.
@@ -76,5 +89,63 @@ impl<'a> Integrand<'a> {
     /// The cones with sharp rims that the model fills.
     pub(super) fn spots(&self) -> Vec<Spot> {
         self.model.spots(self.incidence)
+    }
+}
+
+/// From unit vectors to directions, and the cosines and sines by which sensitivities are turned.
+struct Seeing<'a, const N: usize> {
+    at: &'a Places<N>,
+    turn: &'a Turn,
+    directions: &'a mut [Direction; N],
+    turns: &'a mut [[f64; N]; 2],
+}
+
+impl<const N: usize> Batch for Seeing<'_, N> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, vectors: V) {
+        let Self { at, turn, directions, turns } = self;
+        const { assert!(N.is_multiple_of(WIDTH)) };
+        for k in (0..N).step_by(WIDTH) {
+            let mut v = [[0.0; WIDTH]; 3];
+            for (group, all) in v.iter_mut().zip(&at.v) {
+                group.copy_from_slice(&all[k..k + WIDTH]);
+            }
+            let [x, y, z] = [vectors.load(&v[0]), vectors.load(&v[1]), vectors.load(&v[2])];
+            let [cos, sin] = turn.at([x, y, z]);
+            turns[0][k..k + WIDTH].copy_from_slice(&vectors.store(cos));
+            turns[1][k..k + WIDTH].copy_from_slice(&vectors.store(sin));
+            directions[k..k + WIDTH].copy_from_slice(&seen_group(vectors, &v));
+        }
+    }
+}
+
+/// R(β)ᵀ M cos θ times the weights.
+struct Weighing<'a, const N: usize> {
+    at: &'a Places<N>,
+    turns: &'a [[f64; N]; 2],
+    flip: f64,
+    out: &'a mut [Mueller; N],
+}
+
+impl<const N: usize> Batch for Weighing<'_, N> {
+    #[inline(always)]
+    fn run<V: Vectors>(self, _: V) {
+        let Self { at, turns: [cos, sin], flip, out } = self;
+        for (k, m) in out.iter_mut().enumerate() {
+            // Directions of no weight lie on the edge of the region, at worst on the horizon.
+            if at.weights[k] == 0.0 {
+                *m = Mueller::ZERO;
+                continue;
+            }
+            let factor = at.weights[k] * at.v[2][k];
+            let (c, s) = (cos[k] * factor, flip * sin[k] * factor);
+            let [first, second, third, fourth] = m.0;
+            for e in 0..4 {
+                m.0[0][e] = first[e] * factor;
+                m.0[1][e] = c * second[e] - s * third[e];
+                m.0[2][e] = s * second[e] + c * third[e];
+                m.0[3][e] = fourth[e] * factor;
+            }
+        }
     }
 }

@@ -8,9 +8,9 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use scattering::Mueller;
+use scattering::{Mueller, lanes::WIDTH};
 
-use super::integrand::Integrand;
+use super::integrand::{Integrand, Places};
 
 /// A direction around which the integrand changes within an angle `width`, radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +34,9 @@ const AROUND: usize = 3;
 /// Evaluations around a place.
 const PROBES: usize = RINGS * AROUND;
 
+/// The same, in whole groups of lanes.
+const ROOM: usize = PROBES.next_multiple_of(WIDTH);
+
 /// Changes of less than this part of the largest value are rounding.
 const ROUNDING: f64 = 1e-8;
 
@@ -48,7 +51,7 @@ const SMOOTH: f64 = 1.0;
 /// The first one stands for the pole of coordinates and may be smooth; the others are peaks.
 pub(super) fn find(integrand: &Integrand<'_>) -> (Vec<Peak>, u64) {
     let places = integrand.gathering();
-    let evaluations = (places.len() * PROBES) as u64;
+    let evaluations = (places.len() * ROOM) as u64;
     let mut peaks: Vec<Peak> = places.into_iter().map(|at| measured(integrand, at)).collect();
     // The sort is stable: of equal ones the likeliest stays in front.
     peaks.sort_by(|a, b| a.width.total_cmp(&b.width));
@@ -66,14 +69,17 @@ fn measured(integrand: &Integrand<'_>, at: DVec3) -> Peak {
         let (sin, cos) = (0.4 + TAU * k as f64 / AROUND as f64).sin_cos();
         q * cos + p * sin
     });
-    let directions: [DVec3; PROBES] = std::array::from_fn(|k| {
+    let mut places = Places::new();
+    for k in 0..PROBES {
         let (sin, cos) = (SMALLEST * RATIO.powi((k / AROUND) as i32)).sin_cos();
-        at * cos + around[k % AROUND] * sin
-    });
-    let mut values = [Mueller::ZERO; PROBES];
-    integrand.values(&directions, &mut values);
+        let v = at * cos + around[k % AROUND] * sin;
+        (places.v[0][k], places.v[1][k], places.v[2][k]) = v.into();
+        places.weights[k] = 1.0;
+    }
+    let mut values = [Mueller::ZERO; ROOM];
+    integrand.values(&places, &mut values);
     // Directions below the horizon tell nothing.
-    let value = |k: usize| if directions[k].z > 0.0 { values[k][(0, 0)] } else { f64::NAN };
+    let value = |k: usize| if places.v[2][k] > 0.0 { values[k][(0, 0)] } else { f64::NAN };
     let rings = std::array::from_fn(|ring| std::array::from_fn(|k| value(AROUND * ring + k)));
     Peak { at, width: width(&rings) }
 }
