@@ -184,7 +184,8 @@ impl<'a> Cubature<'a> {
             }
             let (largest, error) = (sum.matrix.largest(), sum.error.largest());
             let target = (demand.tolerance * largest).max(FLOOR);
-            let split = if error <= target { balance::too_long(&self.cells) } else { self.worst(target) };
+            let split =
+                if error <= target { balance::too_long(&self.cells) } else { self.worst(target) };
             if split.is_empty() {
                 return Ok(sum);
             }

@@ -82,11 +82,8 @@ pub(super) fn seen_group<V: Vectors>(vectors: V, v: &[[f64; WIDTH]; 3]) -> [Dire
     let (sin_phi, cos_phi) = (vectors.store(sin_phi), vectors.store(cos_phi));
     let mut group = [Direction::from_sin_cos((0.0, 1.0), (0.0, 1.0)); WIDTH];
     for (k, direction) in group.iter_mut().enumerate() {
-        let azimuth = if across[k] > 0.0 {
-            (sin_phi[k], cos_phi[k])
-        } else {
-            of_the_normal(x[k], y[k])
-        };
+        let azimuth =
+            if across[k] > 0.0 { (sin_phi[k], cos_phi[k]) } else { of_the_normal(x[k], y[k]) };
         *direction = Direction::from_sin_cos((sin[k], z[k]), azimuth);
     }
     group

@@ -128,8 +128,7 @@ mod tests {
 
     #[test]
     fn what_is_smooth_has_no_peak() {
-        let all: [fn(f64) -> f64; 4] =
-            [|_| 2.0, |r| 1.0 - 0.5 * r * r, |r| r.cos() + 0.3 * r, |_| 0.0];
+        let all: [fn(f64) -> f64; 4] = [|_| 2.0, |r| 1.0 - 0.5 * r * r, |r| r.cos() + r, |_| 0.0];
         for f in all {
             assert_eq!(width(&rings(f)), SMOOTH);
         }

@@ -33,7 +33,7 @@ const SPLITS: usize = 6;
 const MOST_SPLITS: usize = 12;
 
 /// Parts of slices are at most this many times as wide as their distance from such a ray.
-const MOST_HIDDEN: f64 = 16.0;
+const MOST_HIDDEN: f64 = 4.0;
 
 /// Widest slice, rad.
 const WIDEST: f64 = FRAC_PI_2;
@@ -183,8 +183,8 @@ impl Rays {
             [s.0, s.1].map(|end| self.stretches(slice, end + 1e-3 * (middle - end)));
         let moved = |(a, b): (&(f64, f64), &(f64, f64))| (a.0 - b.0).abs().max((a.1 - b.1).abs());
         let most = first.iter().zip(&last).map(moved).fold(0.0, f64::max);
-        let is_split = most >= FAR && depth < SPLITS
-            || self.slices[slice].hides(s) && depth < MOST_SPLITS;
+        let is_split =
+            most >= FAR && depth < SPLITS || self.slices[slice].hides(s) && depth < MOST_SPLITS;
         if is_split {
             self.split(slice, (s.0, middle), depth + 1, cells);
             self.split(slice, (middle, s.1), depth + 1, cells);
@@ -349,8 +349,8 @@ fn even(from: f64, to: f64, touching: &[f64]) -> Vec<Slice> {
     };
     let slice = |k: usize| {
         let (from, to) = (at(k), at(k + 1));
-        let touching = (!touching.is_empty())
-            .then(|| (nearest(&|p| from - p), nearest(&|p| p - to)));
+        let touching =
+            (!touching.is_empty()).then(|| (nearest(&|p| from - p), nearest(&|p| p - to)));
         Slice { from, to, touching }
     };
     (0..parts as usize).map(slice).collect()
