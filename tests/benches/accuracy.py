@@ -29,7 +29,7 @@ MOST = 2e7
 HEMISPHERE = ("hemisphere", "HEMI END", 6.3)
 CONE = ("cone of 5 degrees", "CIRCLE CENTER = (0.6,0) ALPHA = 5*atan(1)/45 END", 0.024)
 CASES = [(0.3, HEMISPHERE, 1e-6), (0.3, CONE, 1e-6), (0.01, HEMISPHERE, 1e-4), (0.01, CONE, 1e-4)]
-MANY = 200
+MANY = 2000
 
 PROGRAM = """MODEL = Facet_BRDF_Model
 VARIABLES:
