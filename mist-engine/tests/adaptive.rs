@@ -4,5 +4,7 @@
 mod plane;
 #[path = "adaptive/programs.rs"]
 mod programs;
+#[path = "adaptive/random.rs"]
+mod random;
 #[path = "adaptive/references.rs"]
 mod references;

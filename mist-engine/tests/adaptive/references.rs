@@ -27,14 +27,21 @@ fn node(name: &str) -> Node {
 }
 
 /// Facets with a density of slopes `sdf` of rms `slope`.
-fn facets(sdf: &str, slope: f64) -> Model {
+pub(crate) fn facets(sdf: &str, slope: f64) -> Model {
     let sdf = node(sdf).with("s", Value::Number(slope)).unwrap();
     let facets = node("Facet_BRDF_Model").with("sdf", Value::Member(sdf.into())).unwrap();
     models::build(&facets).unwrap()
 }
 
+/// Facets with a Gaussian density of slopes that shadow each other, with sharp limits.
+pub(crate) fn shadowed(slope: f64) -> Model {
+    let sdf = node("Gaussian_Slope_Distribution_Function").with("s", Value::Number(slope)).unwrap();
+    let facets = node("Shadowed_Facet_BRDF_Model").with("sdf", Value::Member(sdf.into())).unwrap();
+    models::build(&facets).unwrap()
+}
+
 /// Roughness with a spectral density that falls at `1/length`.
-fn rough(length: f64) -> Model {
+pub(crate) fn rough(length: f64) -> Model {
     let psd = node("ABC_PSD_Function").with("B", Value::Number(length)).unwrap();
     let model = node("Microroughness_BRDF_Model").with("psd", Value::Member(psd.into())).unwrap();
     models::build(&model).unwrap()
