@@ -120,17 +120,17 @@ const LOBES: [Lobe; 7] = [
     Lobe { name: "roughness-20-um", make: || rough(20.0), theta_i: 0.6, width: 0.0266 },
 ];
 
-/// A lobe that is six times as long as it is wide, since it lies low, under a ring whose inner rim
-/// cuts it off; only the ends of it are seen in the cells that are farther out.
+/// A lobe that is a dozen times as long as it is wide, since it lies low, under crossing rings: of
+/// its far end only the cells nearer to the mirror direction know.
 fn long_lobe() -> Case {
     let region = Region::Annulus {
-        outer_center: (1.19, -0.0842),
-        outer_alpha: 0.419,
-        inner_center: (1.1848, -0.0842),
-        inner_alpha: 0.2271,
+        outer_center: (1.491598, 0.0),
+        outer_alpha: 0.0226889,
+        inner_center: (1.515943, 0.0),
+        inner_alpha: 0.0153986,
     };
-    let (name, width) = ("slope-0.0014-at-1.4-rad\tring beside it".into(), 0.0014);
-    Case { name, model: gaussian(0.0014), theta_i: 1.4, region, width }
+    let (name, width) = ("slope-0.00086-at-1.49-rad\trings that cross".into(), 0.00086);
+    Case { name, model: gaussian(0.00086065), theta_i: 1.491598, region, width }
 }
 
 /// Rings that cross at places from which rays from the mirror direction go on to touch the inner
