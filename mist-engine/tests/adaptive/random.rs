@@ -85,7 +85,7 @@ fn polygon(center: (f64, f64), size: f64, part: f64, turn: f64, corners: usize) 
     let middle = [center.0.sin() * center.1.cos(), center.0.sin() * center.1.sin()];
     let corner = |k: usize| {
         let (sin, cos) = (turn + TAU * k as f64 / corners as f64).sin_cos();
-        let radius = if k % 2 == 0 { size } else { size * part };
+        let radius = if k.is_multiple_of(2) { size } else { size * part };
         let (x, y) = (middle[0] + radius * cos, middle[1] + radius * sin);
         (x.hypot(y).min(0.999).asin(), y.atan2(x))
     };
