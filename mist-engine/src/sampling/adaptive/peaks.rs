@@ -84,7 +84,7 @@ fn measured(integrand: &Integrand<'_>, at: DVec3) -> Peak {
     Peak { at, width: width(&rings) }
 }
 
-/// The radius at which the change from the smallest ring ends.
+/// Twice the radius at which half of the change is behind; between two rings it is interpolated.
 fn width(rings: &[[f64; AROUND]; RINGS]) -> f64 {
     let values = || rings.iter().flatten().map(|x| x.abs()).filter(|x| x.is_finite());
     let rounding = ROUNDING * values().fold(0.0, f64::max);
@@ -92,15 +92,16 @@ fn width(rings: &[[f64; AROUND]; RINGS]) -> f64 {
     let middle = middle.iter().sum::<f64>() / middle.len() as f64;
     // NaN does not count: max takes the other one.
     let change = |ring: &[f64; AROUND]| ring.iter().map(|x| (x - middle).abs()).fold(0.0, f64::max);
-    let mut last = change(&rings[0]);
-    for k in 1..RINGS {
-        let now = change(&rings[k]);
-        if last > rounding && now < GROWTH * last {
-            return SMALLEST * RATIO.powi(k as i32 - 1);
-        }
-        last = now;
-    }
-    SMOOTH
+    let changes = rings.each_ref().map(change);
+    let has_ended = |k: &usize| changes[k - 1] > rounding && changes[*k] < GROWTH * changes[k - 1];
+    let Some(end) = (1..RINGS).find(has_ended) else { return SMOOTH };
+    let half = 0.5 * changes[end - 1].max(changes[end]);
+    let behind = (0..end).find(|k| changes[*k] >= half).unwrap_or(end);
+    let before = behind.saturating_sub(1);
+    let part = (half / changes[before]).ln() / (changes[behind] / changes[before]).ln();
+    // On the first ring already, or between rings of equal changes.
+    let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 1.0 };
+    (2.0 * SMALLEST * RATIO.powf(before as f64 + part)).min(SMOOTH)
 }
 
 #[cfg(test)]

@@ -234,9 +234,11 @@ impl Rays {
         (at(s, u), along_p, at(s, cell.u.0).distance(at(s, cell.u.1)))
     }
 
-    /// w of t.
+    /// w of t ≥ 0: the area hyperbolic sine, with the rounding of numbers near 1, which is no more
+    /// than that of the angles.
     fn stretched(&self, t: f64) -> f64 {
-        if t == 0.0 { 0.0 } else { (t / self.near).asinh() }
+        let x = t / self.near;
+        (x + (x * x + 1.0).sqrt()).ln()
     }
 
     /// The azimuth at s in 0..1 of a slice, and dp/ds.
