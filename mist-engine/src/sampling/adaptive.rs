@@ -21,10 +21,13 @@ use thiserror::Error;
 use crate::region::{Region, RegionError};
 
 mod balance;
+mod boundary;
 mod cell;
+mod first;
 mod integrand;
 mod peaks;
 mod rays;
+mod slice;
 
 use cell::{Cell, NODES};
 use integrand::Integrand;
