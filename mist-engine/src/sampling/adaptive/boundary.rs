@@ -13,8 +13,10 @@ use glam::{DVec2, DVec3};
 use scattering::models::Spot;
 use smallvec::{SmallVec, smallvec};
 
-use super::rays::TINY;
 use crate::region::{Polygon, Region, RegionError, above_horizon, refuse_crossing, unit};
+
+/// Shorter intervals and slices are left out, rad.
+pub(super) const TINY: f64 = 1e-13;
 
 /// The directions v with v·`normal` = `cos`.
 #[derive(Clone, Copy, Debug)]

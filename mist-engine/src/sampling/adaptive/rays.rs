@@ -10,14 +10,11 @@ use scattering::{
 };
 
 use super::{
-    boundary::{Boundary, Intervals},
+    boundary::{Boundary, Intervals, TINY},
     peaks::Peak,
     slice::{Slice, even},
 };
 use crate::region::{Region, RegionError};
-
-/// Shorter intervals and slices are left out, rad.
-pub(super) const TINY: f64 = 1e-13;
 
 /// A region around a pole.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
 
-use super::rays::TINY;
+use super::boundary::TINY;
 
 /// Parts of slices are at most this many times as wide as their distance from a ray that touches a
 /// circle just outside.
