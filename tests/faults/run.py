@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Seeds small faults in the language, the loops, the shapes and the sampling, and shows which tests see them.
+"""Seeds small faults in the language, the loops, the shapes, the sampling and the adaptive integrals, and shows which tests see them.
 
     python3 tests/faults/run.py            all faults
     python3 tests/faults/run.py 7 31       these only
@@ -27,7 +27,8 @@ PROGRAMS = [
     ("conformance", "mist-format/", []),
     ("conformance", "tests/", ["the_language", "shapes_are", "sampling_agrees", "polarization", "tables_and"]),
     ("sound", "tests/", []),
-    ("mist_engine", "lib", ["--skip", "advice::", "--skip", "adaptive"]),
+    ("mist_engine", "lib", ["--skip", "advice::"]),
+    ("adaptive", "mist-engine/", []),
 ]
 # Crates that get the switch; the others take that of mist_format.
 SWITCHED = ["mist-format", "scattering"]
