@@ -5,8 +5,8 @@
 //! closed form; between the azimuths at which this set changes, (p, t) is mapped smoothly to
 //! unit squares. Along a ray t = ε sinh w, where ε is the width of the peak that a few
 //! evaluations around the pole have shown. The squares are halved where Gauss's rule is not
-//! yet good enough, until the sum of the errors is small enough and no cell is much longer than its
-//! neighbours ([`balance`]).
+//! yet good enough, until the sum of the errors is small enough; then, while there are evaluations
+//! left, where a cell is much longer than its neighbours ([`balance`]).
 //!
 //! Peaks in the directions of mirror, retro-reflection and refraction are found at any width
 //! ([`peaks`]), and so are the cones into which gratings diffract; the rims of these cut the
@@ -187,12 +187,14 @@ impl<'a> Cubature<'a> {
             }
             let (largest, error) = (sum.matrix.largest(), sum.error.largest());
             let target = (demand.tolerance * largest).max(FLOOR);
+            let is_reached = error <= target;
             let split =
-                if error <= target { balance::too_long(&self.cells) } else { self.worst(target) };
-            if split.is_empty() {
+                if is_reached { balance::too_long(&self.cells) } else { self.worst(target) };
+            let fits = self.evaluations + (2 * NODES * split.len()) as u64 <= demand.budget;
+            if is_reached && (split.is_empty() || !fits) {
                 return Ok(sum);
             }
-            if self.evaluations + (2 * NODES * split.len()) as u64 > demand.budget {
+            if !fits {
                 let (tolerance, evaluations) = (demand.tolerance, self.evaluations);
                 let reached = error / largest;
                 return Err(AdaptiveError::Budget { tolerance, reached, evaluations });

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use mist_engine::{
     region::Region,
-    sampling::adaptive::{Demand, integrate},
+    sampling::adaptive::{AdaptiveError, Demand, integrate},
 };
 use rayon::prelude::*;
 use scattering::{Basis, Incidence, Mode, Model, Node, Value, models, spec};
@@ -210,6 +210,25 @@ fn check(case: &Case) -> Vec<String> {
         }
     }
     complaints
+}
+
+#[test]
+fn what_is_refused_has_not_reached_its_tolerance() {
+    let Case { model, theta_i, region, .. } = long_lobe();
+    let incidence = Incidence::new(theta_i, 0.0);
+    let (mut refused, mut last) = (0, None);
+    for budget in (500..20_000).step_by(64) {
+        let demand = Demand { tolerance: 1e-3, budget };
+        match integrate(&model, &incidence, Basis::Psps, &region, &demand, &|| false) {
+            Err(AdaptiveError::Budget { tolerance, reached, .. }) => {
+                assert!(reached > tolerance, "{reached} with {budget}");
+                refused += 1;
+            }
+            other => last = Some(other.unwrap()),
+        }
+    }
+    assert!(refused > 5);
+    assert!(last.unwrap().evaluations < 19_000, "the largest budget suffices");
 }
 
 /// Takes minutes: `cargo test --release -p mist-engine --test adaptive -- --ignored --nocapture`
