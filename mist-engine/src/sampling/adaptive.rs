@@ -27,6 +27,7 @@ mod first;
 mod integrand;
 mod peaks;
 mod rays;
+mod rule;
 mod slice;
 
 use cell::{Cell, NODES};
