@@ -58,9 +58,16 @@ impl Rays {
         for interval in 0..count {
             let lengths = at.iter().filter_map(|all| all.get(interval)).map(|w| w.1 - w.0);
             let pieces = (lengths.fold(0.0, f64::max) / LONGEST).ceil().max(1.0);
+            let begins_at_pole = at[1].get(interval).is_some_and(|w| w.0 == 0.0);
             for k in 0..pieces as usize {
                 let u = (k as f64 / pieces, (k + 1) as f64 / pieces);
-                cells.push(Cell { slice, interval, s, u });
+                let cell = Cell { slice, interval, s, u };
+                // Most of a peak is in the first of several pieces.
+                if k == 0 && pieces > 1.0 && begins_at_pole {
+                    cells.extend(cell.halves(false));
+                } else {
+                    cells.push(cell);
+                }
             }
         }
     }
