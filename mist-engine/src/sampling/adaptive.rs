@@ -39,7 +39,7 @@ use rays::Rays;
 pub struct Demand {
     /// Largest error of an element, relative to the largest element: that of unpolarized light.
     pub tolerance: f64,
-    /// Evaluations of the model, at most; they are held in memory, about 5 bytes each.
+    /// Evaluations of the model, at most; they are held in memory, about 6 bytes each.
     pub budget: u64,
 }
 
