@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Seeds small faults in the language, the loops, the shapes, the sampling and the adaptive integrals, and shows which tests see them.
+"""Seeds small faults in the language and in the integration, and shows which tests see them.
 
     python3 tests/faults/run.py            all faults
     python3 tests/faults/run.py 7 31       these only

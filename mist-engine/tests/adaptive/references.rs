@@ -26,18 +26,21 @@ fn node(name: &str) -> Node {
     Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
 }
 
+/// The facets of `class` with a density of slopes `sdf` of rms `slope`.
+fn with_slopes(class: &str, sdf: &str, slope: f64) -> Model {
+    let sdf = node(sdf).with("s", Value::Number(slope)).unwrap();
+    let facets = node(class).with("sdf", Value::Member(sdf.into())).unwrap();
+    models::build(&facets).unwrap()
+}
+
 /// Facets with a density of slopes `sdf` of rms `slope`.
 pub(crate) fn facets(sdf: &str, slope: f64) -> Model {
-    let sdf = node(sdf).with("s", Value::Number(slope)).unwrap();
-    let facets = node("Facet_BRDF_Model").with("sdf", Value::Member(sdf.into())).unwrap();
-    models::build(&facets).unwrap()
+    with_slopes("Facet_BRDF_Model", sdf, slope)
 }
 
 /// Facets with a Gaussian density of slopes that shadow each other, with sharp limits.
 pub(crate) fn shadowed(slope: f64) -> Model {
-    let sdf = node("Gaussian_Slope_Distribution_Function").with("s", Value::Number(slope)).unwrap();
-    let facets = node("Shadowed_Facet_BRDF_Model").with("sdf", Value::Member(sdf.into())).unwrap();
-    models::build(&facets).unwrap()
+    with_slopes("Shadowed_Facet_BRDF_Model", "Gaussian_Slope_Distribution_Function", slope)
 }
 
 /// Roughness with a spectral density that falls at `1/length`.
@@ -47,15 +50,18 @@ pub(crate) fn rough(length: f64) -> Model {
     models::build(&model).unwrap()
 }
 
+fn annulus(
+    outer_center: (f64, f64),
+    outer_alpha: f64,
+    inner_center: (f64, f64),
+    inner_alpha: f64,
+) -> Region {
+    Region::Annulus { outer_center, outer_alpha, inner_center, inner_alpha }
+}
+
 /// Apertures around the mirror direction (`theta`, 0) of a lobe `wide` radians wide.
 fn apertures(theta: f64, wide: f64) -> Vec<(&'static str, Region)> {
     let circle = |center, alpha| Region::Circle { center, alpha };
-    let annulus = |outer_center, outer_alpha, inner_center, inner_alpha| Region::Annulus {
-        outer_center,
-        outer_alpha,
-        inner_center,
-        inner_alpha,
-    };
     let polygon = |vertices: &[(f64, f64)]| Region::Polygon {
         vertices: vertices.to_vec(),
         polarization_center: (theta, 0.0),
@@ -123,12 +129,7 @@ const LOBES: [Lobe; 7] = [
 /// A lobe that is a dozen times as long as it is wide, since it lies low, under crossing rings: of
 /// its far end only the cells nearer to the mirror direction know.
 fn long_lobe() -> Case {
-    let region = Region::Annulus {
-        outer_center: (1.491598, 0.0),
-        outer_alpha: 0.0226889,
-        inner_center: (1.515943, 0.0),
-        inner_alpha: 0.0153986,
-    };
+    let region = annulus((1.491598, 0.0), 0.0226889, (1.515943, 0.0), 0.0153986);
     let (name, width) = ("slope-0.00086-at-1.49-rad\trings that cross".into(), 0.00086);
     Case { name, model: gaussian(0.00086065), theta_i: 1.491598, region, width }
 }
@@ -136,12 +137,7 @@ fn long_lobe() -> Case {
 /// Rings that cross at places from which rays from the mirror direction go on to touch the inner
 /// one: the lengths of intervals bend within a millionth of a slice.
 fn crossing_beside_a_ray_that_touches() -> Case {
-    let region = Region::Annulus {
-        outer_center: (1.0823, 0.4949),
-        outer_alpha: 0.08858,
-        inner_center: (1.168, 0.4949),
-        inner_alpha: 0.02916,
-    };
+    let region = annulus((1.0823, 0.4949), 0.08858, (1.168, 0.4949), 0.02916);
     let name = "slope-0.59-at-0-rad\trings that cross beside a ray that touches".into();
     Case { name, model: gaussian(0.59), theta_i: 0.0, region, width: 0.59 }
 }

@@ -105,16 +105,13 @@ impl<const N: usize> Batch for Seeing<'_, N> {
     fn run<V: Vectors>(self, vectors: V) {
         let Self { at, turn, directions, turns } = self;
         const { assert!(N.is_multiple_of(WIDTH)) };
-        for k in (0..N).step_by(WIDTH) {
-            let mut v = [[0.0; WIDTH]; 3];
-            for (group, all) in v.iter_mut().zip(&at.v) {
-                group.copy_from_slice(&all[k..k + WIDTH]);
-            }
+        for group in 0..N / WIDTH {
+            let v = at.v.each_ref().map(|all| all.as_chunks().0[group]);
             let [x, y, z] = [vectors.load(&v[0]), vectors.load(&v[1]), vectors.load(&v[2])];
             let [cos, sin] = turn.at([x, y, z]);
-            turns[0][k..k + WIDTH].copy_from_slice(&vectors.store(cos));
-            turns[1][k..k + WIDTH].copy_from_slice(&vectors.store(sin));
-            directions[k..k + WIDTH].copy_from_slice(&seen_group(vectors, &v));
+            turns[0].as_chunks_mut().0[group] = vectors.store(cos);
+            turns[1].as_chunks_mut().0[group] = vectors.store(sin);
+            directions.as_chunks_mut().0[group] = seen_group(vectors, &v);
         }
     }
 }
