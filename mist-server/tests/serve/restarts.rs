@@ -7,10 +7,10 @@ use std::{
 
 use crate::service::Service;
 
-/// A job of some seconds with many steps.
+/// A job of some seconds with many steps: what is done is written down five times a second.
 pub(crate) const LONG: &str = "MODEL = Facet_BRDF_Model\nVARIABLES:\n\
     rad = atan(1)/45 t = 0 incidentangle = t*rad incidentpol = (1,0.2,0.1,0) rotation = 0\n\
-    differential = (0.7*rad)^2 minsamples = 100 END\n\
+    differential = (0.35*rad)^2 minsamples = 100 END\n\
     VARY:\nFOR t FROM 0 TO 80 BY 0.1\nEND\nINTEGRALS: R = HEMI END END\nOUTPUTS: 1 R END\n\
     FILES: format = %.17g\\t END\n";
 
@@ -61,7 +61,7 @@ fn a_service_that_stops_ends_the_events_of_a_job_that_runs() {
     let data = tempfile::tempdir().unwrap();
     let mut service = Service::start(data.path(), &[]);
     // Longer than a service that stops waits for its answers.
-    let id = service.submit(&LONG.replace("(0.7*rad)^2", "(0.1*rad)^2"));
+    let id = service.submit(&LONG.replace("(0.35*rad)^2", "(0.1*rad)^2"));
     service.wait(&id, |status| status["state"] == "running");
     let mut stream = service.connect();
     write!(stream, "GET /v1/jobs/{id}/events HTTP/1.1\r\nHost: mist\r\n\r\n").unwrap();
