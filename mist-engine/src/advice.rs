@@ -24,7 +24,7 @@ use scattering::spec::Met;
 use crate::{
     Job,
     fault::Fault,
-    output::{Line, Outputs},
+    output::{Outputs, TableLine},
     region::Region,
     replay::Replay,
     step::{Evaluated, Step},
@@ -112,7 +112,7 @@ impl<'j> Rehearsal<'j> {
         let about_names = |code| {
             matches!(code, "expr/unknown-name" | "expr/unknown-function" | "expr/file-arguments")
         };
-        match Outputs::new(self.job).fill(&mut Line::default(), step, &ones) {
+        match Outputs::new(self.job).fill(&mut TableLine::default(), step, &ones) {
             Err(fault) if about_names(fault.code) => Err(fault),
             _ => Ok(()),
         }

@@ -15,14 +15,17 @@ use mist_format::{
 use scattering::{Basis, Class, spec};
 
 use crate::{
-    Files, Job, Library, Options,
+    DataFiles, Files, Job, Options,
     colour::section::ColourSection,
     fault::{Fault, fault, placed},
-    job::{Entry, IntegralPlan, Key, OutputPlan, Required, Setting},
+    job::{
+        ApertureParameter, ApertureSetting, IntegralPlan, OutputPlan, RequiredVariables,
+        VariableEntry,
+    },
     quirk::{Quirk, dialect},
     replay::ADAPTIVE,
-    scope::{Names, Scope},
-    sweep::{Column, ForPlan, ListPlan, LoopPlan},
+    scope::{SlotNames, SlotValues},
+    sweep::{ForPlan, ListColumn, ListPlan, LoopPlan},
     uncertainty::ErrorColumns,
 };
 
@@ -44,15 +47,15 @@ pub fn compile(
             variable.value = Text::new(format!("{value:?}"), variable.value.span().start);
         }
     }
-    let library = Library::new(files, dialect(options.mode));
-    Compiler { program, options, library, names: Names::default(), faults: Vec::new() }.job()
+    let library = DataFiles::new(files, dialect(options.mode));
+    Compiler { program, options, library, names: SlotNames::default(), faults: Vec::new() }.job()
 }
 
 struct Compiler<'a> {
     program: Program,
     options: &'a Options,
-    library: Library,
-    names: Names,
+    library: DataFiles,
+    names: SlotNames,
     faults: Vec<Diagnostic>,
 }
 
@@ -140,7 +143,7 @@ impl Compiler<'_> {
         self.expr(text).map_err(|fault| self.faults.push(*fault)).ok()
     }
 
-    fn required(&mut self, program: &Program) -> Required {
+    fn required(&mut self, program: &Program) -> RequiredVariables {
         let last = program.variables.iter().rev();
         let incidentpol = last
             .filter(|v| v.kind == VariableKind::Local)
@@ -148,7 +151,7 @@ impl Compiler<'_> {
             .map(|variable| variable.value.clone());
         let incidentpol =
             incidentpol.and_then(|text| self.expr(&text).ok().map(|expr| (text, expr)));
-        Required {
+        RequiredVariables {
             incidentangle: self.names.slot("incidentangle"),
             differential: self.names.slot("differential"),
             incidentpol,
@@ -163,7 +166,7 @@ impl Compiler<'_> {
         }
     }
 
-    fn entries(&mut self, variables: &[Variable]) -> Vec<Entry> {
+    fn entries(&mut self, variables: &[Variable]) -> Vec<VariableEntry> {
         let mut entries = Vec::with_capacity(variables.len());
         for (at, variable) in variables.iter().enumerate() {
             let parameter = variable.parameter().map(str::to_owned);
@@ -174,17 +177,17 @@ impl Compiler<'_> {
                     (Some(slot), self.expr_or_note(&variable.value))
                 }
             };
-            entries.push(Entry { slot, variable: at, expr, parameter });
+            entries.push(VariableEntry { slot, variable: at, expr, parameter });
         }
         entries
     }
 
     /// Every entry evaluated once, in order, with what is defined before it.
-    fn initial(&mut self, program: &Program, entries: &[Entry]) -> Vec<(u32, Value)> {
-        let mut scope = Scope::new(self.names.len(), self.library.clone());
+    fn initial(&mut self, program: &Program, entries: &[VariableEntry]) -> Vec<(u32, Value)> {
+        let mut scope = SlotValues::new(self.names.len(), self.library.clone());
         let mut stack = Stack::default();
         let mut initial = Vec::new();
-        // Names whose own entry is wrong: their users are not blamed for it.
+        // SlotNames whose own entry is wrong: their users are not blamed for it.
         let mut broken = BTreeSet::new();
         for entry in entries {
             let Some(slot) = entry.slot else { continue };
@@ -216,7 +219,7 @@ impl Compiler<'_> {
     fn vary(
         &mut self,
         each: &Loop,
-        entries: &[Entry],
+        entries: &[VariableEntry],
         results: &BTreeSet<u32>,
     ) -> Option<LoopPlan> {
         match each {
@@ -230,9 +233,9 @@ impl Compiler<'_> {
     }
 
     /// The first entry with this name, whatever its case.
-    fn entry(&mut self, name: &str, place: &Text, entries: &[Entry]) -> Option<usize> {
+    fn entry(&mut self, name: &str, place: &Text, entries: &[VariableEntry]) -> Option<usize> {
         let variables = &self.program.variables;
-        let of = |entry: &Entry| variables[entry.variable].name.as_str();
+        let of = |entry: &VariableEntry| variables[entry.variable].name.as_str();
         let found = entries.iter().position(|entry| of(entry).eq_ignore_ascii_case(name));
         if found.is_none() {
             let names: Vec<&str> = entries.iter().map(of).collect();
@@ -247,7 +250,7 @@ impl Compiler<'_> {
     fn for_plan(
         &mut self,
         statement: &ForLoop,
-        entries: &[Entry],
+        entries: &[VariableEntry],
         results: &BTreeSet<u32>,
     ) -> Option<ForPlan> {
         let entry = self.entry(statement.variable.as_str(), &statement.variable, entries);
@@ -273,7 +276,7 @@ impl Compiler<'_> {
     fn list_plan(
         &mut self,
         statement: &ListLoop,
-        entries: &[Entry],
+        entries: &[VariableEntry],
         results: &BTreeSet<u32>,
     ) -> Option<ListPlan> {
         let name = statement.file.as_str();
@@ -292,14 +295,19 @@ impl Compiler<'_> {
             let entry = self.entry(title, &statement.file, entries)?;
             let variable = &self.program.variables[entries[entry].variable];
             let is_text = variable.kind == VariableKind::Literal;
-            columns.push(Column { entry, title: title.to_owned(), is_text });
+            columns.push(ListColumn { entry, title: title.to_owned(), is_text });
         }
         let fed_back = self.reads_results(&file, &columns, results);
         Some(ListPlan { statement: statement.clone(), file, columns, fed_back })
     }
 
     /// Whether a cell of a LIST file names an integral or an output.
-    fn reads_results(&self, file: &ListTable, columns: &[Column], results: &BTreeSet<u32>) -> bool {
+    fn reads_results(
+        &self,
+        file: &ListTable,
+        columns: &[ListColumn],
+        results: &BTreeSet<u32>,
+    ) -> bool {
         (0..file.row_count()).any(|row| {
             columns.iter().enumerate().filter(|(_, column)| !column.is_text).any(|(at, _)| {
                 let cell = file.cell(row, at);
@@ -314,7 +322,7 @@ impl Compiler<'_> {
     }
 
     /// Without compat: a loop over incidentpol that no INPOL reads changes nothing.
-    fn incident_loops(&mut self, program: &Program, entries: &[Entry], loops: &[LoopPlan]) {
+    fn incident_loops(&mut self, program: &Program, entries: &[VariableEntry], loops: &[LoopPlan]) {
         if Quirk::FixedIncidentPolarization.applies_in(self.options.mode) {
             return;
         }
@@ -350,12 +358,12 @@ impl Compiler<'_> {
     fn errors(
         &mut self,
         program: &Program,
-        entries: &[Entry],
+        entries: &[VariableEntry],
         initial: &[(u32, Value)],
         integrals: &[IntegralPlan],
         outputs: &[OutputPlan],
     ) -> Option<ErrorColumns> {
-        let name = |e: &Entry| program.variables[e.variable].name.as_str();
+        let name = |e: &VariableEntry| program.variables[e.variable].name.as_str();
         let number = |slot| {
             let found = initial.iter().rev().find(|(other, _)| Some(*other) == slot);
             found.map(|(_, value)| value.number())
@@ -405,7 +413,11 @@ impl Compiler<'_> {
                 continue;
             }
             if let Some(expr) = self.expr_or_note(&parameter.value) {
-                settings.push(Setting { key: Key::of(&key), text: parameter.value.clone(), expr });
+                settings.push(ApertureSetting {
+                    key: ApertureParameter::of(&key),
+                    text: parameter.value.clone(),
+                    expr,
+                });
             }
         }
         IntegralPlan { slot, name: integral.name.clone(), shape: integral.shape, settings }
@@ -448,7 +460,7 @@ impl Compiler<'_> {
     fn colour(
         &mut self,
         program: &Program,
-        entries: &[Entry],
+        entries: &[VariableEntry],
         loops: &[LoopPlan],
         outputs: &[OutputPlan],
         initial: &[(u32, Value)],
@@ -532,7 +544,7 @@ fn predefined_help(diagnostic: Diagnostic, expr: &Expr) -> Diagnostic {
     diagnostic
 }
 
-impl Key {
+impl ApertureParameter {
     fn of(name: &str) -> Self {
         match name {
             "CENTER" => Self::Center,
@@ -558,8 +570,8 @@ fn is_chained(integrals: &[IntegralPlan], results: &BTreeSet<u32>) -> bool {
 
 /// Whether variables, loop bounds or apertures read integrals or outputs.
 fn feeds_back(
-    entries: &[Entry],
-    required: &Required,
+    entries: &[VariableEntry],
+    required: &RequiredVariables,
     loops: &[LoopPlan],
     integrals: &[IntegralPlan],
     results: &BTreeSet<u32>,

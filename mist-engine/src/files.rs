@@ -56,22 +56,22 @@ impl Files for MemoryFiles {
 
 /// What a run has read: every file once, parsed once. Clones share what they read.
 #[derive(Clone)]
-pub struct Library {
-    shelf: Arc<Shelf>,
+pub struct DataFiles {
+    shelf: Arc<FileCache>,
 }
 
-struct Shelf {
+struct FileCache {
     files: Arc<dyn Files + Send + Sync>,
     dialect: Dialect,
     texts: Mutex<HashMap<String, Result<Arc<str>, FileError>>>,
     tables: Mutex<HashMap<String, Result<Arc<ColumnTable>, TableError>>>,
 }
 
-impl Library {
+impl DataFiles {
     /// A library that reads from `files`.
     pub fn new(files: Arc<dyn Files + Send + Sync>, dialect: Dialect) -> Self {
         let (texts, tables) = (Mutex::default(), Mutex::default());
-        Self { shelf: Arc::new(Shelf { files, dialect, texts, tables }) }
+        Self { shelf: Arc::new(FileCache { files, dialect, texts, tables }) }
     }
 
     /// How files are read.
@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn a_missing_file_is_told_with_a_similar_name() {
         let files = MemoryFiles(BTreeMap::from([("gold.txt".to_owned(), Arc::from("1 2\n"))]));
-        let library = Library::new(Arc::new(files), Dialect::Sound);
+        let library = DataFiles::new(Arc::new(files), Dialect::Sound);
         let error = library.text("glod.txt").unwrap_err();
         assert!(error.to_string().contains("gold.txt"), "{error}");
     }

@@ -8,7 +8,7 @@
 //!
 //! With ν = data − variables, s² = χ²/ν and J the derivatives of the weighted residuals, the
 //! covariance of the variables is s² (JᵀJ)⁻¹ and a variable's interval is its value ± t √C_ii with
-//! Student's t for ν; with σ that are known ([`Settings::absolute`]), (JᵀJ)⁻¹ and the normal
+//! Student's t for ν; with σ that are known ([`FitSettings::absolute`]), (JᵀJ)⁻¹ and the normal
 //! distribution.
 //!
 //! Limits: the intervals are those of a model that is linear near the solution, with independent
@@ -26,13 +26,13 @@ use std::collections::BTreeMap;
 use mist_format::Diagnostic;
 use serde::Serialize;
 
-use crate::{Control, Failure, varied::Varied};
+use crate::{Control, Failure, function::ProgramFunction};
 
-pub use measured::{Datum, Measured, MeasuredError};
+pub use measured::{Datum, MeasuredError, MeasuredTable};
 
 /// How variables are fitted.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct FitSettings {
     /// Where to start variables, in place of the program's values.
     pub start: BTreeMap<String, f64>,
     /// The least and the largest value that variables may have.
@@ -47,7 +47,7 @@ pub struct Settings {
     pub iterations: usize,
 }
 
-impl Default for Settings {
+impl Default for FitSettings {
     fn default() -> Self {
         Self {
             start: BTreeMap::new(),
@@ -143,7 +143,7 @@ pub enum FitError {
     },
     /// The measured rows do not fit the program's.
     #[error("{0}")]
-    Measured(#[from] MeasuredError),
+    MeasuredTable(#[from] MeasuredError),
     /// The program does not run.
     #[error("with {}: {failure}", named(.values))]
     Run {
@@ -219,12 +219,12 @@ fn undetermined(name: &str, with: &[String]) -> String {
 ///
 /// See [`FitError`].
 pub fn fit(
-    program: &Varied,
-    measured: &Measured,
-    settings: &Settings,
+    program: &ProgramFunction,
+    measured: &MeasuredTable,
+    settings: &FitSettings,
     control: &Control,
 ) -> Result<Fit, FitError> {
-    solve::Problem::new(program, measured, settings, control)?.solve()
+    solve::LeastSquares::new(program, measured, settings, control)?.solve()
 }
 
 #[cfg(test)]

@@ -9,11 +9,11 @@ use mist_format::{
 use scattering::{Basis, Class, Mode, ParamError};
 
 use crate::{
-    Library, Limits,
+    DataFiles, Limits,
     colour::section::ColourSection,
     fault::{Fault, fault},
     region::RegionError,
-    scope::Names,
+    scope::SlotNames,
     sweep::LoopPlan,
     uncertainty::ErrorColumns,
 };
@@ -45,14 +45,14 @@ impl Default for Options {
 pub struct Job {
     pub(crate) program: Program,
     pub(crate) options: Options,
-    pub(crate) library: Library,
+    pub(crate) library: DataFiles,
     pub(crate) class: &'static Class,
-    pub(crate) names: Names,
+    pub(crate) names: SlotNames,
     /// The parse-time values of the variables.
     pub(crate) initial: Vec<(u32, Value)>,
-    pub(crate) entries: Vec<Entry>,
+    pub(crate) entries: Vec<VariableEntry>,
     pub(crate) loops: Vec<LoopPlan>,
-    pub(crate) required: Required,
+    pub(crate) required: RequiredVariables,
     pub(crate) integrals: Vec<IntegralPlan>,
     pub(crate) outputs: Vec<OutputPlan>,
     /// The columns of the errors, if the program wants them.
@@ -69,7 +69,7 @@ pub struct Job {
 }
 
 /// One entry of VARIABLES.
-pub(crate) struct Entry {
+pub(crate) struct VariableEntry {
     /// Its slot; texts for the model have none.
     pub(crate) slot: Option<u32>,
     /// Position in the program's VARIABLES.
@@ -81,7 +81,7 @@ pub(crate) struct Entry {
 }
 
 /// The required variables, read in this order at every step.
-pub(crate) struct Required {
+pub(crate) struct RequiredVariables {
     pub(crate) incidentangle: u32,
     pub(crate) differential: u32,
     pub(crate) incidentpol: Option<(Text, Expr)>,
@@ -96,15 +96,15 @@ pub(crate) struct Required {
 }
 
 /// A parameter of an integral: which it is, and its expression.
-pub(crate) struct Setting {
-    pub(crate) key: Key,
+pub(crate) struct ApertureSetting {
+    pub(crate) key: ApertureParameter,
     pub(crate) text: Text,
     pub(crate) expr: Expr,
 }
 
 /// Parameters of integrals, of all shapes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Key {
+pub(crate) enum ApertureParameter {
     Center,
     Alpha,
     OuterCenter,
@@ -122,19 +122,20 @@ pub(crate) struct IntegralPlan {
     pub(crate) slot: u32,
     pub(crate) name: Text,
     pub(crate) shape: Shape,
-    pub(crate) settings: Vec<Setting>,
+    pub(crate) settings: Vec<ApertureSetting>,
 }
 
 impl IntegralPlan {
     /// What is written for the last parameter that is one of `keys`.
-    fn setting(&self, keys: &[Key]) -> Option<&Text> {
+    fn setting(&self, keys: &[ApertureParameter]) -> Option<&Text> {
         let found = self.settings.iter().rev().find(|setting| keys.contains(&setting.key));
         found.map(|setting| &setting.text)
     }
 
     /// What is written for the corner `number` of a polygon, from 1.
     fn vertex(&self, number: usize) -> Option<&Text> {
-        let mut corners = self.settings.iter().filter(|setting| setting.key == Key::Vertex);
+        let mut corners =
+            self.settings.iter().filter(|setting| setting.key == ApertureParameter::Vertex);
         corners.nth(number.checked_sub(1)?).map(|setting| &setting.text)
     }
 }
@@ -233,7 +234,7 @@ impl Job {
                  from the one before it",
             ),
             RegionError::WideOrthographic { .. } => (
-                plan.setting(&[Key::Alpha, Key::OuterAlpha]),
+                plan.setting(&[ApertureParameter::Alpha, ApertureParameter::OuterAlpha]),
                 "ALPHA is in radians; degrees are written 20*deg",
             ),
         };

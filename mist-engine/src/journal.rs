@@ -12,7 +12,7 @@ use crate::step::Evaluated;
 
 /// What the evaluation of one step gave.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Finished {
+pub struct StepResult {
     /// The integrals, in the order of the program.
     pub values: SmallVec<[Evaluated; 4]>,
     /// The lines of the samples file, if the program has one.
@@ -26,25 +26,25 @@ pub trait Journal: Send {
     /// # Errors
     ///
     /// If it cannot be read.
-    fn recall(&mut self, step: u64) -> io::Result<Option<Finished>>;
+    fn recall(&mut self, step: u64) -> io::Result<Option<StepResult>>;
 
     /// Keeps the steps from `first` on.
     ///
     /// # Errors
     ///
     /// If they cannot be kept; the run ends.
-    fn keep(&mut self, first: u64, steps: &[Finished]) -> io::Result<()>;
+    fn keep(&mut self, first: u64, steps: &[StepResult]) -> io::Result<()>;
 }
 
 /// Remembers nothing.
-pub(crate) struct Forgetful;
+pub(crate) struct NoJournal;
 
-impl Journal for Forgetful {
-    fn recall(&mut self, _: u64) -> io::Result<Option<Finished>> {
+impl Journal for NoJournal {
+    fn recall(&mut self, _: u64) -> io::Result<Option<StepResult>> {
         Ok(None)
     }
 
-    fn keep(&mut self, _: u64, _: &[Finished]) -> io::Result<()> {
+    fn keep(&mut self, _: u64, _: &[StepResult]) -> io::Result<()> {
         Ok(())
     }
 }

@@ -31,7 +31,7 @@ impl Default for Limits {
 /// Reports how much of a run is done, from 0 to 1.
 pub(crate) type Progress = Box<dyn Fn(f64) + Send + Sync>;
 
-/// The two ends of a run's leash: it reports progress and asks whether to stop.
+/// Control of a run from outside: cancellation and progress.
 #[derive(Default)]
 pub struct Control {
     /// Set to true to stop the run.

@@ -20,8 +20,8 @@ use scattering::{Mode, Model, Notice, ParamError, models, spec::Met};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Failure, FileError, Files, Job, Library, MemoryFiles,
-    parameters::{Parameters, SetError},
+    DataFiles, Failure, FileError, Files, Job, MemoryFiles,
+    parameters::{ModelParameters, SetError},
     quirk::dialect,
     region::RegionError,
     replay::Replay,
@@ -169,8 +169,8 @@ impl Material {
     ) -> Result<Prepared, MaterialError> {
         let own = self.files.iter().map(|(name, text)| (name.clone(), text.as_str().into()));
         let shelf = Shelf { own: MemoryFiles(own.collect()), more: more_files };
-        let library = Library::new(Arc::new(shelf), dialect(mode));
-        let mut parameters = Parameters::new(class(&self.model)?);
+        let library = DataFiles::new(Arc::new(shelf), dialect(mode));
+        let mut parameters = ModelParameters::new(class(&self.model)?);
         for (path, value) in &self.parameters {
             parameters.set(path, value, &library, mode, None)?;
         }
@@ -189,7 +189,7 @@ fn class(name: &str) -> Result<&'static scattering::Class, MaterialError> {
 /// A material with its parameters set and its files read.
 #[derive(Clone, Debug)]
 pub struct Prepared {
-    parameters: Parameters,
+    parameters: ModelParameters,
     mode: Mode,
 }
 

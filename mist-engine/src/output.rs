@@ -11,14 +11,14 @@ use mist_format::{
 use crate::{
     Job,
     fault::{Fault, placed},
-    scope::Scope,
-    step::{COLUMN_DIGITS, Cell, Evaluated, Step},
+    scope::SlotValues,
+    step::{COLUMN_DIGITS, Evaluated, LoopCell, Step},
     uncertainty::{ErrorColumn, ErrorColumns},
 };
 
 /// One of the three texts that a run writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stream {
+pub enum OutputStream {
     /// The table: a line of names, then one line per step.
     Results,
     /// What was run with which parameters.
@@ -34,7 +34,7 @@ pub trait Sink: Send {
     /// # Errors
     ///
     /// If the text cannot be kept; the run ends.
-    fn write(&mut self, stream: Stream, text: &str) -> io::Result<()>;
+    fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()>;
 
     /// Takes a line of the results in its parts, after its text was written. Nothing is done with
     /// it unless a sink wants it.
@@ -42,7 +42,7 @@ pub trait Sink: Send {
     /// # Errors
     ///
     /// If it cannot be kept; the run ends.
-    fn row(&mut self, _line: &Line) -> io::Result<()> {
+    fn row(&mut self, _line: &TableLine) -> io::Result<()> {
         Ok(())
     }
 
@@ -77,11 +77,11 @@ pub struct MemorySink {
 }
 
 impl Sink for MemorySink {
-    fn write(&mut self, stream: Stream, text: &str) -> io::Result<()> {
+    fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()> {
         let kept = match stream {
-            Stream::Results => &mut self.results,
-            Stream::Listing => &mut self.listing,
-            Stream::Samples => &mut self.samples,
+            OutputStream::Results => &mut self.results,
+            OutputStream::Listing => &mut self.listing,
+            OutputStream::Samples => &mut self.samples,
         };
         kept.push_str(text);
         Ok(())
@@ -118,14 +118,14 @@ pub(crate) fn head(job: &Job) -> String {
 
 /// A line of the results.
 #[derive(Debug, Default)]
-pub struct Line {
+pub struct TableLine {
     pub(crate) text: String,
     /// Where the columns of the loops stand in the text.
     cells: Vec<Range<usize>>,
     outputs: Vec<f64>,
 }
 
-impl Line {
+impl TableLine {
     /// What the columns of the loops show.
     pub fn loops(&self) -> impl Iterator<Item = &str> {
         self.cells.iter().map(|cell| &self.text[cell.clone()])
@@ -140,7 +140,7 @@ impl Line {
 /// The values that outputs see: a step's variables and integrals, labels of earlier steps.
 pub(crate) struct Outputs<'j> {
     job: &'j Job,
-    pub(crate) scope: Scope,
+    pub(crate) scope: SlotValues,
     stack: Stack,
     /// The variables that the scope holds.
     values: Option<Arc<[Option<Value>]>>,
@@ -151,7 +151,7 @@ pub(crate) struct Outputs<'j> {
 
 impl<'j> Outputs<'j> {
     pub(crate) fn new(job: &'j Job) -> Self {
-        let scope = Scope::new(job.names.len(), job.library.clone());
+        let scope = SlotValues::new(job.names.len(), job.library.clone());
         let integrals = job.integrals.iter().map(|plan| plan.slot);
         let errors = job.errors.iter().flat_map(ErrorColumns::slots);
         let outputs = job.outputs.iter().map(|output| output.slot);
@@ -164,7 +164,7 @@ impl<'j> Outputs<'j> {
     /// Puts the line of `step`, whose integrals came out as `integrals`, into `line`.
     pub(crate) fn fill(
         &mut self,
-        line: &mut Line,
+        line: &mut TableLine,
         step: &Step,
         integrals: &[Evaluated],
     ) -> Result<(), Fault> {
@@ -177,7 +177,7 @@ impl<'j> Outputs<'j> {
         for column in job.errors.iter().flat_map(ErrorColumns::all) {
             self.scope.set_number(column.slot, error(column));
         }
-        let Line { text, cells, outputs } = line;
+        let TableLine { text, cells, outputs } = line;
         text.clear();
         cells.clear();
         outputs.clear();
@@ -221,10 +221,10 @@ impl<'j> Outputs<'j> {
         self.values = Some(step.values.clone());
     }
 
-    fn push_cell(&mut self, text: &mut String, cell: &Cell) -> Result<(), Fault> {
+    fn push_cell(&mut self, text: &mut String, cell: &LoopCell) -> Result<(), Fault> {
         match cell {
-            Cell::Text(cell) => text.push_str(cell),
-            Cell::Expression(expr) => {
+            LoopCell::Text(cell) => text.push_str(cell),
+            LoopCell::Expression(expr) => {
                 let value: Value = self
                     .scope
                     .value(expr, &mut self.stack)
@@ -244,7 +244,7 @@ impl<'j> Outputs<'j> {
     }
 
     /// Gives integrals and labels to the scope of the next step.
-    pub(crate) fn feed_back(&self, scope: &mut Scope) {
+    pub(crate) fn feed_back(&self, scope: &mut SlotValues) {
         let integrals = self.job.integrals.iter().map(|plan| plan.slot);
         let errors = self.job.errors.iter().flat_map(ErrorColumns::slots);
         let outputs = self.job.outputs.iter().map(|output| output.slot);

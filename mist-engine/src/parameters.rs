@@ -10,20 +10,20 @@ mod fingerprint;
 mod formula;
 mod index;
 mod object;
-mod shared;
-mod slot;
+mod persistent;
 mod source;
+mod state;
 mod table;
 
 pub use error::SetError;
 pub(crate) use fingerprint::Digest;
 pub use fingerprint::Fingerprint;
 
-use object::Object;
+use object::ObjectState;
+use persistent::Persistent;
 use scattering::{Class, Mode, Node, spec::Met};
-use shared::Shared;
 
-use crate::Library;
+use crate::DataFiles;
 
 /// Whether the dotted name `lower` is that of something inside of what `upper` names.
 pub(crate) fn is_below(lower: &str, upper: &str) -> bool {
@@ -32,13 +32,13 @@ pub(crate) fn is_below(lower: &str, upper: &str) -> bool {
 
 /// The state of a model's parameters.
 #[derive(Clone, Debug)]
-pub struct Parameters {
-    root: Shared<Object>,
+pub struct ModelParameters {
+    root: Persistent<ObjectState>,
 }
 
 /// What setting a parameter needs besides its name and text.
-pub(crate) struct Context<'a> {
-    pub(crate) library: &'a Library,
+pub(crate) struct ParameterContext<'a> {
+    pub(crate) library: &'a DataFiles,
     pub(crate) mode: Mode,
     /// The wavelength for which the objects around were evaluated last, if any.
     pub(crate) evaluated_at: Option<f64>,
@@ -46,10 +46,10 @@ pub(crate) struct Context<'a> {
     pub(crate) is_nested: bool,
 }
 
-impl Parameters {
+impl ModelParameters {
     /// Every parameter of `class` at its default.
     pub fn new(class: &'static Class) -> Self {
-        Self { root: Shared::new(Object::new(class)) }
+        Self { root: Persistent::new(ObjectState::new(class)) }
     }
 
     /// The class of the model.
@@ -70,11 +70,11 @@ impl Parameters {
         &mut self,
         path: &str,
         text: &str,
-        library: &Library,
+        library: &DataFiles,
         mode: Mode,
         previous: Option<&Self>,
     ) -> Result<(), SetError> {
-        let mut context = Context { library, mode, evaluated_at: None, is_nested: false };
+        let mut context = ParameterContext { library, mode, evaluated_at: None, is_nested: false };
         let before = previous.map(|parameters| &*parameters.root);
         self.root.edit().set(path, text, &mut context, before).map_err(|error| error.named(path))
     }

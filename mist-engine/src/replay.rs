@@ -14,7 +14,7 @@ use std::{
     sync::Arc,
 };
 
-use aperture::{Aperture, stokes};
+use aperture::{ApertureBuilder, stokes};
 use due::Due;
 use mist_format::{
     Diagnostic, Program,
@@ -28,14 +28,14 @@ use settings::Settings;
 use crate::{
     Job,
     fault::{Fault, placed},
-    job::{Entry, IntegralPlan, Setting},
-    parameters::Parameters,
+    job::{ApertureSetting, IntegralPlan, VariableEntry},
+    parameters::ModelParameters,
     quirk::{Quirk, dialect},
     region::Apertures,
     sampling::{Sampling, adaptive::Demand},
-    scope::{Known, Scope},
-    step::{Integral, Listing, Step},
-    sweep::{Content, Context, Sweep},
+    scope::{Memo, SlotValues},
+    step::{Listing, Step, StepIntegral},
+    sweep::{EntryContent, LoopContext, Sweep},
 };
 
 /// The `integrationmode` of adaptive integrals.
@@ -49,14 +49,14 @@ const BUDGET: f64 = 1e7;
 
 /// What an entry holds for the rest of the run after a loop has written it.
 struct Overwritten {
-    content: Content,
+    content: EntryContent,
     /// The content compiled, if it is an expression that was needed.
     expr: Option<Expr>,
 }
 
 /// What an entry gave last.
 struct Given {
-    known: Known<Value>,
+    known: Memo<Value>,
     /// When it was put into the slot of the entry.
     put: u64,
 }
@@ -64,31 +64,31 @@ struct Given {
 /// A run of the expressions of a job.
 pub struct Replay<'j> {
     job: &'j Job,
-    pub(crate) scope: Scope,
+    pub(crate) scope: SlotValues,
     stack: Stack,
     sweep: Option<Sweep<'j>>,
     overwritten: Vec<Option<Overwritten>>,
     due: Due,
     /// What each entry gave last, unless a loop has written it since.
     entries: Vec<Option<Given>>,
-    incident: Option<Known<Stokes>>,
+    incident: Option<Memo<Stokes>>,
     /// What the expressions of the integrals' settings gave last.
-    settings: Vec<Vec<Option<Known<Value>>>>,
+    settings: Vec<Vec<Option<Memo<Value>>>>,
     /// For each setting an earlier one, by integral and number, with the same expression.
     twins: Vec<Vec<Option<(usize, usize)>>>,
-    integrals: Option<Known<Arc<Vec<Integral>>>>,
+    integrals: Option<Memo<Arc<Vec<StepIntegral>>>>,
     /// The incident light with which they were made.
     incident_before: Option<Stokes>,
-    values: Option<Known<Arc<[Option<Value>]>>>,
+    values: Option<Memo<Arc<[Option<Value>]>>>,
     /// The slots that the integrals read.
     integrals_read: Vec<u32>,
     last_sent: Vec<Option<Sent>>,
     known_settings: Settings,
     /// When the predefined variables were given their values.
     predefined: Option<u64>,
-    parameters: Parameters,
+    parameters: ModelParameters,
     /// The parameters of the step before: NIST's library remembers optical constants by them.
-    previous: Option<Parameters>,
+    previous: Option<ModelParameters>,
     index: u64,
     ended: bool,
 }
@@ -96,7 +96,7 @@ pub struct Replay<'j> {
 impl<'j> Replay<'j> {
     /// At the beginning of `job`, before its first step.
     pub fn new(job: &'j Job) -> Self {
-        let mut scope = Scope::new(job.names.len(), job.library.clone());
+        let mut scope = SlotValues::new(job.names.len(), job.library.clone());
         for (slot, value) in &job.initial {
             scope.set(*slot, value);
         }
@@ -126,7 +126,7 @@ impl<'j> Replay<'j> {
             last_sent: (0..entries).map(|_| None).collect(),
             known_settings: Settings::default(),
             predefined: None,
-            parameters: Parameters::new(job.class),
+            parameters: ModelParameters::new(job.class),
             previous: None,
             index: 0,
             ended: false,
@@ -171,7 +171,7 @@ impl<'j> Replay<'j> {
     }
 
     /// The parameters of the model as the step before left them.
-    pub(crate) fn parameters(&self) -> &Parameters {
+    pub(crate) fn parameters(&self) -> &ModelParameters {
         &self.parameters
     }
 
@@ -206,7 +206,7 @@ impl<'j> Replay<'j> {
 
     /// Goes to the next combination of loop values; false after the last one.
     fn move_loops(&mut self) -> Result<bool, Fault> {
-        let mut context = Context::of(self.job, &mut self.scope, &mut self.stack);
+        let mut context = LoopContext::of(self.job, &mut self.scope, &mut self.stack);
         match &mut self.sweep {
             Some(sweep) => sweep.advance(&mut context),
             None => {
@@ -218,11 +218,11 @@ impl<'j> Replay<'j> {
 
     /// Writes what the loops say into their entries.
     fn write_loops(&mut self) -> Result<(), Fault> {
-        let mut context = Context::of(self.job, &mut self.scope, &mut self.stack);
+        let mut context = LoopContext::of(self.job, &mut self.scope, &mut self.stack);
         let Some(sweep) = &mut self.sweep else { return Ok(()) };
         for written in sweep.write(&mut context)? {
             self.entries[written.entry] = None;
-            self.due.written(written.entry, matches!(written.content, Content::Text(_)));
+            self.due.written(written.entry, matches!(written.content, EntryContent::Text(_)));
             self.overwritten[written.entry] =
                 Some(Overwritten { content: written.content, expr: None });
         }
@@ -290,16 +290,16 @@ impl<'j> Replay<'j> {
     }
 
     /// Evaluates an entry.
-    fn renew(&mut self, at: usize, entry: &Entry) -> Result<(), Fault> {
+    fn renew(&mut self, at: usize, entry: &VariableEntry) -> Result<(), Fault> {
         let text = self.text(entry);
         let expr = match &mut self.overwritten[at] {
             None => entry.expr.as_ref().expect("an entry with a slot has an expression"),
-            Some(Overwritten { content: Content::Number(x), .. }) => {
-                let known = Known::new(&self.scope, (*x).into());
+            Some(Overwritten { content: EntryContent::Number(x), .. }) => {
+                let known = Memo::new(&self.scope, (*x).into());
                 self.entries[at] = Some(Given { known, put: 0 });
                 return Ok(());
             }
-            Some(Overwritten { content: Content::Text(written), expr }) => {
+            Some(Overwritten { content: EntryContent::Text(written), expr }) => {
                 if expr.is_none() {
                     *expr = Some(written_expr(self.job, written, text)?);
                 }
@@ -310,11 +310,11 @@ impl<'j> Replay<'j> {
             .scope
             .value(expr, &mut self.stack)
             .map_err(|error| unknown(self.job, &self.scope, text, &error))?;
-        self.entries[at] = Some(Given { known: Known::new(&self.scope, value), put: 0 });
+        self.entries[at] = Some(Given { known: Memo::new(&self.scope, value), put: 0 });
         Ok(())
     }
 
-    fn text(&self, entry: &Entry) -> &'j Text {
+    fn text(&self, entry: &VariableEntry) -> &'j Text {
         &self.job.program.variables[entry.variable].value
     }
 
@@ -369,7 +369,7 @@ impl<'j> Replay<'j> {
         &mut self,
         (sampling, demand): (&Sampling, Option<Demand>),
         incident: Stokes,
-    ) -> Result<Arc<Vec<Integral>>, Fault> {
+    ) -> Result<Arc<Vec<StepIntegral>>, Fault> {
         let job = self.job;
         if job.chained {
             return Ok(Arc::default());
@@ -387,7 +387,7 @@ impl<'j> Replay<'j> {
         }
         let value = Arc::new(integrals);
         self.incident_before = Some(incident);
-        self.integrals = Some(Known::new(&self.scope, value.clone()));
+        self.integrals = Some(Memo::new(&self.scope, value.clone()));
         Ok(value)
     }
 
@@ -400,7 +400,7 @@ impl<'j> Replay<'j> {
             return known.value.clone();
         }
         let value: Arc<[_]> = reads.iter().map(|slot| self.scope.get(*slot).cloned()).collect();
-        self.values = Some(Known::new(&self.scope, value.clone()));
+        self.values = Some(Memo::new(&self.scope, value.clone()));
         value
     }
 
@@ -464,7 +464,7 @@ impl<'j> Replay<'j> {
             .value(expr, &mut self.stack)
             .map_err(|error| unknown(job, &self.scope, text, &error))?;
         let value = stokes(&value, text)?;
-        self.incident = Some(Known::new(&self.scope, value));
+        self.incident = Some(Memo::new(&self.scope, value));
         Ok(value)
     }
 
@@ -473,13 +473,13 @@ impl<'j> Replay<'j> {
         number: usize,
         (sampling, demand): (Sampling, Option<Demand>),
         incident: Stokes,
-    ) -> Result<Integral, Fault> {
+    ) -> Result<StepIntegral, Fault> {
         let plan = &self.job.integrals[number];
-        let mut aperture = Aperture::under(incident);
+        let mut aperture = ApertureBuilder::under(incident);
         for (at, setting) in plan.settings.iter().enumerate() {
             let slots = setting.expr.slots();
             let known = |place: (usize, usize)| self.settings[place.0][place.1].as_ref();
-            let holds = |known: &&Known<Value>| known.holds(&self.scope, slots);
+            let holds = |known: &&Memo<Value>| known.holds(&self.scope, slots);
             if !known((number, at)).is_some_and(|known| holds(&known)) {
                 let twin = self.twins[number][at].and_then(known).filter(holds);
                 let value = match twin {
@@ -489,7 +489,7 @@ impl<'j> Replay<'j> {
                         .value(&setting.expr, &mut self.stack)
                         .map_err(|error| unknown(self.job, &self.scope, &setting.text, &error))?,
                 };
-                self.settings[number][at] = Some(Known::new(&self.scope, value));
+                self.settings[number][at] = Some(Memo::new(&self.scope, value));
             }
             let known = self.settings[number][at].as_ref().expect("known by now");
             aperture.set(setting.key, &known.value, &setting.text)?;
@@ -502,7 +502,7 @@ impl<'j> Replay<'j> {
 /// expression, if it is another one.
 fn twins(job: &Job) -> Vec<Vec<Option<(usize, usize)>>> {
     let mut first = HashMap::new();
-    let mut twin = |place: (usize, usize), setting: &Setting| {
+    let mut twin = |place: (usize, usize), setting: &ApertureSetting| {
         let found = *first.entry(setting.expr.text().to_owned()).or_insert(place);
         (found != place).then_some(found)
     };
@@ -530,7 +530,7 @@ fn missing_required(program: &Program, name: &str) -> Fault {
 }
 
 /// An error of an evaluation, with the names that were known.
-fn unknown(job: &Job, scope: &Scope, text: &Text, error: &EvalError) -> Fault {
+fn unknown(job: &Job, scope: &SlotValues, text: &Text, error: &EvalError) -> Fault {
     let known: Vec<&str> = scope.defined().map(|slot| job.names.name(slot)).collect();
     placed(text, error.diagnostic(known))
 }

@@ -1,7 +1,7 @@
 //! Running a job: steps in blocks, each block in parallel, results in order.
 
-mod gather;
-mod lanes;
+mod parallel;
+mod reader;
 
 use std::{
     collections::BTreeSet,
@@ -9,28 +9,28 @@ use std::{
     time::{Duration, Instant},
 };
 
-use gather::{Gather, price};
-use lanes::{Lanes, Round};
+use parallel::{ParallelReplay, StepBatch};
+use reader::{StepReader, price};
 use scattering::{Defect, Notice};
 
 use crate::{
     Control, Failure, Job,
     colour::{ColourTable, fold::Fold},
     fault::Fault,
-    journal::{Finished, Forgetful, Journal},
+    journal::{Journal, NoJournal, StepResult},
     limits::Meter,
     listing,
-    output::{Line, Outputs, Sink, Stream, head},
+    output::{OutputStream, Outputs, Sink, TableLine, head},
     region::Apertures,
     replay::Replay,
-    share::Shared,
-    step::{Evaluated, Integral, Step},
+    share::Evaluator,
+    step::{Evaluated, Step, StepIntegral},
     uncertainty::ErrorColumns,
 };
 
 /// Steps that are replayed before they are evaluated together.
 const BLOCK_STEPS: usize = 256;
-/// Evaluations after which a block is closed, so that progress is seen and a wish to stop heard.
+/// Evaluations after which a block is closed, so that progress is seen and a cancellation takes effect.
 const BLOCK_EVALUATIONS: f64 = 2e6;
 
 /// A block of a part should take about this long.
@@ -40,7 +40,7 @@ const FIRST_STEPS: usize = 32;
 
 /// What a finished run has to tell.
 #[derive(Debug, Default)]
-pub struct Summary {
+pub struct RunSummary {
     /// Steps of the loops.
     pub steps: u64,
     /// Evaluations of the model.
@@ -58,10 +58,10 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// What is wrong with a step, a limit that was reached, a wish to stop, a table that cannot
+    /// What is wrong with a step, a limit that was reached, a cancellation, a table that cannot
     /// be written. What `sink` has taken until then is not the table of the job.
-    pub fn run(&self, sink: &mut dyn Sink, control: &Control) -> Result<Summary, Failure> {
-        self.run_on(sink, control, &mut Forgetful)
+    pub fn run(&self, sink: &mut dyn Sink, control: &Control) -> Result<RunSummary, Failure> {
+        self.run_on(sink, control, &mut NoJournal)
     }
 
     /// Runs the job and keeps its steps in `journal`; those that the journal has are not
@@ -75,16 +75,16 @@ impl Job {
         sink: &mut dyn Sink,
         control: &Control,
         journal: &mut dyn Journal,
-    ) -> Result<Summary, Failure> {
-        sink.write(Stream::Listing, &listing::head(self))?;
-        sink.write(Stream::Results, &head(self))?;
+    ) -> Result<RunSummary, Failure> {
+        sink.write(OutputStream::Listing, &listing::head(self))?;
+        sink.write(OutputStream::Results, &head(self))?;
         if self.samples_name().is_some() {
-            sink.write(Stream::Samples, listing::SAMPLES_HEAD)?;
+            sink.write(OutputStream::Samples, listing::SAMPLES_HEAD)?;
         }
         let mut runner = Runner::new(self, sink, control, journal);
         runner.fold = self.colour.as_ref().map(Fold::new);
         runner.steps()?;
-        runner.sink.write(Stream::Listing, &listing::tail(runner.summary.seconds))?;
+        runner.sink.write(OutputStream::Listing, &listing::tail(runner.summary.seconds))?;
         let Runner { fold, mut summary, .. } = runner;
         if let Some(fold) = fold {
             let table = fold.table().map_err(|fault| Failure::Program(vec![*fault]))?;
@@ -109,9 +109,9 @@ impl Job {
         part: Range<u64>,
         sink: &mut dyn Sink,
         control: &Control,
-    ) -> Result<Summary, Failure> {
+    ) -> Result<RunSummary, Failure> {
         assert!(!self.in_order, "a part of a job that runs in order");
-        let mut forgetful = Forgetful;
+        let mut forgetful = NoJournal;
         let mut runner = Runner::new(self, sink, control, &mut forgetful);
         runner.part = Some(part);
         runner.pace = 1;
@@ -123,7 +123,7 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// What is wrong with a step, more steps than the limit, a wish to stop.
+    /// What is wrong with a step, more steps than the limit, a cancellation.
     pub fn count_steps(&self, control: &Control) -> Result<u64, Failure> {
         let mut replay = Replay::new(self);
         let mut steps = 0;
@@ -138,17 +138,17 @@ impl Job {
     }
 
     /// What stands before the first step.
-    pub fn head(&self, stream: Stream) -> String {
+    pub fn head(&self, stream: OutputStream) -> String {
         match stream {
-            Stream::Results => head(self),
-            Stream::Listing => listing::head(self),
-            Stream::Samples => listing::SAMPLES_HEAD.to_owned(),
+            OutputStream::Results => head(self),
+            OutputStream::Listing => listing::head(self),
+            OutputStream::Samples => listing::SAMPLES_HEAD.to_owned(),
         }
     }
 
     /// What stands behind the last step of a run that took `seconds`.
-    pub fn tail(stream: Stream, seconds: f64) -> String {
-        if stream == Stream::Listing { listing::tail(seconds) } else { String::new() }
+    pub fn tail(stream: OutputStream, seconds: f64) -> String {
+        if stream == OutputStream::Listing { listing::tail(seconds) } else { String::new() }
     }
 
     fn within_limit(&self, steps: u64) -> Result<(), Failure> {
@@ -166,12 +166,12 @@ struct Runner<'a> {
     control: &'a Control,
     journal: &'a mut dyn Journal,
     meter: Meter<'a>,
-    shared: Shared<'a>,
+    shared: Evaluator<'a>,
     outputs: Outputs<'a>,
     /// The line that is being written.
-    line: Line,
+    line: TableLine,
     fold: Option<Fold<'a>>,
-    summary: Summary,
+    summary: RunSummary,
     /// The steps to be evaluated, unless all are.
     part: Option<Range<u64>>,
     /// Steps of a block, at most.
@@ -191,11 +191,11 @@ impl<'a> Runner<'a> {
             control,
             journal,
             meter: Meter::new(&job.options.limits),
-            shared: Shared::new(job, control),
+            shared: Evaluator::new(job, control),
             outputs: Outputs::new(job),
-            line: Line::default(),
+            line: TableLine::default(),
             fold: None,
-            summary: Summary::default(),
+            summary: RunSummary::default(),
             part: None,
             pace: if job.in_order { 1 } else { BLOCK_STEPS },
         }
@@ -204,16 +204,16 @@ impl<'a> Runner<'a> {
     /// All blocks.
     fn steps(&mut self) -> Result<(), Failure> {
         let started = Instant::now();
-        let mut gather = Gather::new(self.job, self.control, self.part.clone());
+        let mut reader = StepReader::new(self.job, self.control, self.part.clone());
         if let Some(part) = &self.part {
-            gather.approach(part.start)?;
+            reader.approach(part.start)?;
         }
-        let first = gather.block(self.pace.min(FIRST_STEPS))?;
-        self.summary.steps = if Lanes::are_there(&gather) {
-            let lanes = Lanes::behind(gather, first.len());
-            self.side_by_side(first, lanes)?
+        let first = reader.block(self.pace.min(FIRST_STEPS))?;
+        self.summary.steps = if ParallelReplay::are_possible(&reader) {
+            let workers = ParallelReplay::after(reader, first.len());
+            self.run_parallel(first, workers)?
         } else {
-            self.one_by_one(first, gather)?
+            self.run_sequential(first, reader)?
         };
         self.summary.seconds = started.elapsed().as_secs_f64();
         self.summary.evaluations = self.meter.evaluations;
@@ -222,35 +222,39 @@ impl<'a> Runner<'a> {
 
     /// All blocks of steps that stand alone: while some are evaluated the next ones are replayed;
     /// gives their number.
-    fn side_by_side(&mut self, mut first: Vec<Step>, mut lanes: Lanes<'a>) -> Result<u64, Failure> {
+    fn run_parallel(
+        &mut self,
+        mut first: Vec<Step>,
+        mut workers: ParallelReplay<'a>,
+    ) -> Result<u64, Failure> {
         let block_started = Instant::now();
         if let Some(fraction) = first.last().map(|last| self.fraction(last)) {
             self.evaluate(&mut first, None)?;
             self.end_block(fraction, block_started)?;
         }
         let threads = rayon::current_num_threads();
-        let mut round = Round::new(self.job, threads);
-        let mut goes_on = lanes.replay(self.pace.saturating_mul(threads))?;
+        let mut batch = StepBatch::new(self.job, threads);
+        let mut goes_on = workers.replay(self.pace.saturating_mul(threads))?;
         while goes_on {
             let block_started = Instant::now();
-            lanes.hand_over(&mut round);
-            let fraction = round.steps().last().map_or(1.0, |last| self.fraction(last));
+            workers.move_into(&mut batch);
+            let fraction = batch.steps().last().map_or(1.0, |last| self.fraction(last));
             let most = self.pace.saturating_mul(threads);
-            let (done, next) = rayon::join(|| self.finish(&mut round), || lanes.replay(most));
+            let (done, next) = rayon::join(|| self.finish(&mut batch), || workers.replay(most));
             done?;
             self.end_block(fraction, block_started)?;
             goes_on = next?;
         }
-        Ok(lanes.count())
+        Ok(workers.count())
     }
 
-    /// Evaluates a round and writes it.
-    fn finish(&mut self, round: &mut Round<'a>) -> Result<(), Failure> {
-        let steps: Vec<&Step> = round.steps().collect();
+    /// Evaluates a batch and writes it.
+    fn finish(&mut self, batch: &mut StepBatch<'a>) -> Result<(), Failure> {
+        let steps: Vec<&Step> = batch.steps().collect();
         let all = self.finished(&steps)?;
         if self.fold.is_none() && self.job.lines_stand_alone() {
-            round.fill(&all)?;
-            for ((step, line), finished) in round.lines().zip(&all) {
+            batch.fill(&all)?;
+            for ((step, line), finished) in batch.lines().zip(&all) {
                 emit(self.sink, step, line, finished)?;
             }
         } else {
@@ -263,7 +267,11 @@ impl<'a> Runner<'a> {
 
     /// All blocks, the first one at hand; while one is evaluated the next one is replayed. Gives
     /// the number of steps.
-    fn one_by_one(&mut self, first: Vec<Step>, mut gather: Gather<'a>) -> Result<u64, Failure> {
+    fn run_sequential(
+        &mut self,
+        first: Vec<Step>,
+        mut reader: StepReader<'a>,
+    ) -> Result<u64, Failure> {
         let mut block = first;
         let mut done_with = Vec::new();
         while let Some(last) = block.last() {
@@ -271,14 +279,14 @@ impl<'a> Runner<'a> {
             let block_started = Instant::now();
             let pace = self.pace;
             let next = if self.job.in_order {
-                self.evaluate(&mut block, Some(&mut gather.replay))?;
-                gather.block(pace)
+                self.evaluate(&mut block, Some(&mut reader.replay))?;
+                reader.block(pace)
             } else {
                 let evaluate = || self.evaluate(&mut block, None);
                 let (done, next) = rayon::join(evaluate, || {
                     // Memory goes back to the thread that took it.
                     drop(std::mem::take(&mut done_with));
-                    gather.block(pace)
+                    reader.block(pace)
                 });
                 done?;
                 next
@@ -286,7 +294,7 @@ impl<'a> Runner<'a> {
             self.end_block(fraction, block_started)?;
             done_with = std::mem::replace(&mut block, next?);
         }
-        Ok(gather.next)
+        Ok(reader.next)
     }
 
     /// Tells that a block is written.
@@ -336,7 +344,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Evaluates a block, except for what the journal has.
-    fn finished(&mut self, block: &[&Step]) -> Result<Vec<Finished>, Failure> {
+    fn finished(&mut self, block: &[&Step]) -> Result<Vec<StepResult>, Failure> {
         let mut all = self.recalled(block.iter().copied())?;
         let known = all.len();
         let new = &block[known..];
@@ -344,7 +352,7 @@ impl<'a> Runner<'a> {
         let mut values = values.into_iter();
         for step in new {
             let values = values.by_ref().take(step.integrals.len()).collect();
-            all.push(Finished { values, samples: self.samples(step) });
+            all.push(StepResult { values, samples: self.samples(step) });
         }
         self.keep(block.iter().copied(), known, &all)?;
         Ok(all)
@@ -355,7 +363,7 @@ impl<'a> Runner<'a> {
         &mut self,
         mut block: impl Iterator<Item = &'s Step> + Clone,
         known: usize,
-        all: &[Finished],
+        all: &[StepResult],
     ) -> Result<(), Failure> {
         self.summary.met.extend(self.shared.take_met());
         if block.clone().flat_map(|step| &*step.integrals).any(is_cut_by_nist) {
@@ -368,7 +376,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Makes the line of `step` and writes it.
-    fn write(&mut self, step: &Step, finished: &Finished) -> Result<(), Failure> {
+    fn write(&mut self, step: &Step, finished: &StepResult) -> Result<(), Failure> {
         self.outputs
             .fill(&mut self.line, step, &finished.values)
             .map_err(|fault| at_step(step.index, fault))?;
@@ -382,7 +390,7 @@ impl<'a> Runner<'a> {
     fn recalled<'s>(
         &mut self,
         block: impl Iterator<Item = &'s Step>,
-    ) -> Result<Vec<Finished>, Failure> {
+    ) -> Result<Vec<StepResult>, Failure> {
         let mut known = Vec::new();
         for step in block {
             match self.journal.recall(step.index)? {
@@ -405,7 +413,7 @@ impl<'a> Runner<'a> {
         &mut self,
         block: &mut [Step],
         replay: &mut Replay<'_>,
-    ) -> Result<Vec<Finished>, Failure> {
+    ) -> Result<Vec<StepResult>, Failure> {
         let mut all = self.recalled(block.iter())?;
         let known = all.len();
         for (at, step) in block.iter_mut().enumerate() {
@@ -428,7 +436,7 @@ impl<'a> Runner<'a> {
                 }
             }
             if at == all.len() {
-                all.push(Finished { values: values.into(), samples: self.samples(step) });
+                all.push(StepResult { values: values.into(), samples: self.samples(step) });
             }
         }
         self.keep(block.iter(), known, &all)?;
@@ -437,21 +445,26 @@ impl<'a> Runner<'a> {
 }
 
 /// Writes what `step` has to say: its part of the listing, its line, its samples.
-fn emit(sink: &mut dyn Sink, step: &Step, line: &Line, finished: &Finished) -> Result<(), Failure> {
+fn emit(
+    sink: &mut dyn Sink,
+    step: &Step,
+    line: &TableLine,
+    finished: &StepResult,
+) -> Result<(), Failure> {
     for line in &step.listing {
-        sink.write(Stream::Listing, line)?;
+        sink.write(OutputStream::Listing, line)?;
     }
-    sink.write(Stream::Results, &line.text)?;
+    sink.write(OutputStream::Results, &line.text)?;
     sink.row(line)?;
     if !finished.samples.is_empty() {
-        sink.write(Stream::Samples, &finished.samples)?;
+        sink.write(OutputStream::Samples, &finished.samples)?;
     }
     sink.step_done(step.index)?;
     Ok(())
 }
 
 /// Whether the aperture is the true one of a shape for which NIST's program takes a polygon.
-fn is_cut_by_nist(integral: &Integral) -> bool {
+fn is_cut_by_nist(integral: &StepIntegral) -> bool {
     integral.sampling.apertures == Apertures::Exact && integral.region.is_round()
 }
 

@@ -7,16 +7,16 @@ use mist_format::{
     table::TableError,
 };
 
-use crate::Library;
+use crate::DataFiles;
 
 /// Names of a program and the slots of their values.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Names {
+pub(crate) struct SlotNames {
     slots: HashMap<String, u32>,
     names: Vec<String>,
 }
 
-impl Names {
+impl SlotNames {
     /// The slot of `name`; a new one at its first use.
     pub(crate) fn slot(&mut self, name: &str) -> u32 {
         if let Some(slot) = self.slots.get(name) {
@@ -49,18 +49,18 @@ impl Names {
 /// It notes when a slot came to hold another value than before, so that what depends on it is
 /// computed again only then.
 #[derive(Clone)]
-pub(crate) struct Scope {
+pub(crate) struct SlotValues {
     values: Vec<Option<Value>>,
     /// For each slot the change, counted from 1, that gave it its value.
     changed: Vec<u64>,
     changes: u64,
     /// The slots of the last changes, in order; not more than there are slots.
     last: Vec<u32>,
-    library: Library,
+    library: DataFiles,
 }
 
-impl Scope {
-    pub(crate) fn new(slots: usize, library: Library) -> Self {
+impl SlotValues {
+    pub(crate) fn new(slots: usize, library: DataFiles) -> Self {
         Self {
             values: vec![None; slots],
             changed: vec![0; slots],
@@ -95,7 +95,7 @@ impl Scope {
         self.last.push(slot);
     }
 
-    /// [`Scope::set`] of one number.
+    /// [`SlotValues::set`] of one number.
     #[inline]
     pub(crate) fn set_number(&mut self, slot: u32, x: f64) {
         let held = self.values[slot as usize].as_mut().and_then(Value::single_mut);
@@ -156,24 +156,24 @@ impl Scope {
 }
 
 /// Something computed from variables, and when; it holds as long as they do not change.
-pub(crate) struct Known<T> {
+pub(crate) struct Memo<T> {
     at: u64,
     pub(crate) value: T,
 }
 
-impl<T> Known<T> {
+impl<T> Memo<T> {
     /// `value`, computed just now.
-    pub(crate) fn new(scope: &Scope, value: T) -> Self {
+    pub(crate) fn new(scope: &SlotValues, value: T) -> Self {
         Self { at: scope.now(), value }
     }
 
     /// Whether what it was computed from, the slots `read`, is as it was.
-    pub(crate) fn holds(&self, scope: &Scope, read: &[u32]) -> bool {
+    pub(crate) fn holds(&self, scope: &SlotValues, read: &[u32]) -> bool {
         scope.is_same_since(self.at, read)
     }
 }
 
-impl expr::Scope for Scope {
+impl expr::Scope for SlotValues {
     fn variable(&self, slot: u32) -> Option<&[f64]> {
         self.values.get(slot as usize)?.as_ref().map(Value::as_slice)
     }
@@ -212,8 +212,8 @@ mod tests {
 
     #[test]
     fn changes_are_told_however_many_there_are() {
-        let library = Library::new(Arc::new(MemoryFiles::default()), Dialect::Sound);
-        let mut scope = Scope::new(4, library);
+        let library = DataFiles::new(Arc::new(MemoryFiles::default()), Dialect::Sound);
+        let mut scope = SlotValues::new(4, library);
         for (then, rounds) in [(0, 1), (2, 1), (2, 3), (9, 2), (13, 0)] {
             for round in 0..rounds {
                 for slot in [3, 1] {
@@ -231,8 +231,8 @@ mod tests {
 
     #[test]
     fn only_another_value_is_a_change() {
-        let library = Library::new(Arc::new(MemoryFiles::default()), Dialect::Sound);
-        let mut scope = Scope::new(2, library);
+        let library = DataFiles::new(Arc::new(MemoryFiles::default()), Dialect::Sound);
+        let mut scope = SlotValues::new(2, library);
         scope.set_number(0, 0.0);
         scope.set_number(1, f64::NAN);
         let then = scope.now();

@@ -5,9 +5,9 @@
 //! wavelength lays out no aperture again. Caches are emptied when they have grown large; that
 //! costs time, never changes a number.
 
-mod kept;
+mod cache;
+mod evaluator;
 mod models;
-mod work;
 
-pub(crate) use kept::Map;
-pub(crate) use work::Shared;
+pub(crate) use cache::FastMap;
+pub(crate) use evaluator::Evaluator;

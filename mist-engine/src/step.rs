@@ -11,7 +11,7 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use crate::{
-    parameters::Parameters,
+    parameters::ModelParameters,
     region::Region,
     sampling::{LayoutKey, Sampling, adaptive::Demand},
 };
@@ -21,13 +21,13 @@ pub struct Step {
     /// Number of the step, from 0.
     pub index: u64,
     /// The model's parameters.
-    pub parameters: Parameters,
+    pub parameters: ModelParameters,
     /// Polar angle of incidence, radians.
     pub theta_i: f64,
     /// Sample rotation, radians.
     pub rotation: f64,
     /// One per integral, in the order of the program; shared with the step before if equal.
-    pub integrals: Arc<Vec<Integral>>,
+    pub integrals: Arc<Vec<StepIntegral>>,
     /// How its integrals are sampled.
     pub(crate) sampling: Sampling,
     /// How accurate its integrals must be, if they are adaptive.
@@ -35,7 +35,7 @@ pub struct Step {
     /// The incident light of integrals without INPOL.
     pub(crate) incident: Stokes,
     /// What the columns of the loops show.
-    pub(crate) columns: Cells,
+    pub(crate) columns: LoopCells,
     /// Values of the variables that outputs read, parallel to the job's `reads`; shared with the
     /// step before if equal.
     pub(crate) values: Arc<[Option<Value>]>,
@@ -49,7 +49,7 @@ pub struct Step {
 
 /// One integral of a step.
 #[derive(Clone, Debug)]
-pub struct Integral {
+pub struct StepIntegral {
     /// The solid angle.
     pub region: Region,
     /// How it is sampled.
@@ -62,7 +62,7 @@ pub struct Integral {
     pub inpol: Stokes,
 }
 
-impl Integral {
+impl StepIntegral {
     /// What tells its directions from those of other integrals.
     pub(crate) fn layout_key(&self) -> LayoutKey {
         match &self.demand {
@@ -93,18 +93,18 @@ pub(crate) type Listing = SmallVec<[Arc<str>; 1]>;
 pub(crate) const COLUMN_DIGITS: usize = 6;
 
 /// What the columns of the loops show: of a few loops without memory of their own.
-pub(crate) type Cells = SmallVec<[Cell; 4]>;
+pub(crate) type LoopCells = SmallVec<[LoopCell; 4]>;
 
 /// What a loop column shows.
 #[derive(Clone, Debug)]
-pub(crate) enum Cell {
+pub(crate) enum LoopCell {
     /// Text as it is; a short one, as nearly all are, is copied without counting who holds it.
     Text(SmolStr),
     /// An expression of a LIST file, evaluated with the new variables.
     Expression(Arc<Expr>),
 }
 
-impl Cell {
+impl LoopCell {
     /// The number `x`.
     pub(crate) fn of(x: f64) -> Self {
         Self::Text(general(x, COLUMN_DIGITS).into())

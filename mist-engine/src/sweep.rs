@@ -8,14 +8,14 @@ mod for_loop;
 mod list_loop;
 
 pub(crate) use for_loop::{ForPlan, ForState};
-pub(crate) use list_loop::{Column, ListPlan, ListState};
+pub(crate) use list_loop::{ListColumn, ListPlan, ListState};
 
 use std::sync::Arc;
 
 use mist_format::expr::Stack;
 use scattering::Mode;
 
-use crate::{Job, fault::Fault, scope::Scope, step::Cells};
+use crate::{Job, fault::Fault, scope::SlotValues, step::LoopCells};
 
 /// A loop as compiled.
 pub(crate) enum LoopPlan {
@@ -43,16 +43,16 @@ impl LoopPlan {
 
 /// What a loop writes into an entry of VARIABLES.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Written {
+pub(crate) struct LoopWrite {
     /// The entry.
     pub(crate) entry: usize,
     /// What it says from now on.
-    pub(crate) content: Content,
+    pub(crate) content: EntryContent,
 }
 
 /// The new content of an entry of VARIABLES.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Content {
+pub(crate) enum EntryContent {
     /// A text that is a number, where the text itself is not wanted.
     Number(f64),
     /// An expression, or a text for the model.
@@ -60,16 +60,16 @@ pub(crate) enum Content {
 }
 
 /// What loops need to evaluate their expressions.
-pub(crate) struct Context<'a> {
-    pub(crate) scope: &'a mut Scope,
+pub(crate) struct LoopContext<'a> {
+    pub(crate) scope: &'a mut SlotValues,
     pub(crate) stack: &'a mut Stack,
-    pub(crate) names: &'a crate::scope::Names,
+    pub(crate) names: &'a crate::scope::SlotNames,
     pub(crate) mode: Mode,
 }
 
-impl<'a> Context<'a> {
+impl<'a> LoopContext<'a> {
     /// That of `job`.
-    pub(crate) fn of(job: &'a Job, scope: &'a mut Scope, stack: &'a mut Stack) -> Self {
+    pub(crate) fn of(job: &'a Job, scope: &'a mut SlotValues, stack: &'a mut Stack) -> Self {
         Self { scope, stack, names: &job.names, mode: job.options.mode }
     }
 }
@@ -89,14 +89,17 @@ pub(crate) struct Sweep<'j> {
     /// Whether the loops were never written.
     is_new: bool,
     /// What was written last.
-    written: Vec<Written>,
+    written: Vec<LoopWrite>,
     /// How often each loop was advanced since it was reset.
     counts: Vec<u64>,
 }
 
 impl<'j> Sweep<'j> {
     /// Every loop at its first value.
-    pub(crate) fn start(plans: &'j [LoopPlan], context: &mut Context<'_>) -> Result<Self, Fault> {
+    pub(crate) fn start(
+        plans: &'j [LoopPlan],
+        context: &mut LoopContext<'_>,
+    ) -> Result<Self, Fault> {
         let start = |plan: &LoopPlan| match plan {
             LoopPlan::For(plan) => ForState::start(plan, context).map(LoopState::For),
             LoopPlan::List(_) => Ok(LoopState::List(ListState::start())),
@@ -107,7 +110,7 @@ impl<'j> Sweep<'j> {
     }
 
     /// Goes to the next combination; false after the last one.
-    pub(crate) fn advance(&mut self, context: &mut Context<'_>) -> Result<bool, Fault> {
+    pub(crate) fn advance(&mut self, context: &mut LoopContext<'_>) -> Result<bool, Fault> {
         for at in (0..self.plans.len()).rev() {
             self.moved = self.moved.min(at);
             let inside = match (&self.plans[at], &mut self.states[at]) {
@@ -133,8 +136,8 @@ impl<'j> Sweep<'j> {
     /// they are declared, later the last one first, as they have moved.
     pub(crate) fn write(
         &mut self,
-        context: &mut Context<'_>,
-    ) -> Result<std::vec::Drain<'_, Written>, Fault> {
+        context: &mut LoopContext<'_>,
+    ) -> Result<std::vec::Drain<'_, LoopWrite>, Fault> {
         let (first, count) = (self.moved, self.plans.len());
         for at in first..count {
             let at = if self.is_new { at } else { count - 1 - (at - first) };
@@ -153,8 +156,8 @@ impl<'j> Sweep<'j> {
     }
 
     /// The loop columns of the current step: the last declared loop first.
-    pub(crate) fn cells(&self) -> Cells {
-        let mut cells = Cells::new();
+    pub(crate) fn cells(&self) -> LoopCells {
+        let mut cells = LoopCells::new();
         for (plan, state) in self.plans.iter().zip(&self.states).rev() {
             match (plan, state) {
                 (LoopPlan::For(_), LoopState::For(state)) => cells.push(state.cell().clone()),

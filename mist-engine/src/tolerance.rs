@@ -20,12 +20,12 @@ use spectra::{Lab, Xyz, difference::delta_e_2000, lab};
 use crate::{
     Control, Failure,
     colour::{ColourRow, ColourTable},
-    varied::Varied,
+    function::ProgramFunction,
 };
 
 /// How the colour of one row moves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Move {
+pub struct ColourShift {
     /// Values of the columns before the angles.
     pub leading: Vec<f64>,
     /// Polar angle of incidence, degrees.
@@ -42,7 +42,7 @@ pub struct Move {
 
 /// What one variable does to the colours.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Sensitivity {
+pub struct ColourSensitivity {
     /// The variable.
     pub name: String,
     /// Its value in the program.
@@ -56,18 +56,18 @@ pub struct Sensitivity {
     /// The change that moves the most sensitive row by one ΔE; none if no colour moves.
     pub for_one: Option<f64>,
     /// The rows.
-    pub rows: Vec<Move>,
+    pub rows: Vec<ColourShift>,
 }
 
 /// What the variables do to the colours of a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Tolerance {
+pub struct ColourTolerance {
     /// Step relative to the value.
     pub step: f64,
     /// Names of the columns before the angles.
     pub leading: Vec<String>,
     /// The variables, in the order they were named.
-    pub parameters: Vec<Sensitivity>,
+    pub parameters: Vec<ColourSensitivity>,
 }
 
 /// Why there are no tolerances.
@@ -104,10 +104,10 @@ pub enum ToleranceError {
 ///
 /// See [`ToleranceError`].
 pub fn tolerance(
-    program: &Varied,
+    program: &ProgramFunction,
     step: f64,
     control: &Control,
-) -> Result<Tolerance, ToleranceError> {
+) -> Result<ColourTolerance, ToleranceError> {
     if !(step > 0.0 && step < 1.0) {
         return Err(ToleranceError::Step(step));
     }
@@ -120,15 +120,15 @@ pub fn tolerance(
         parameters.push(parameter);
         control.report((at + 1) as f64 / count as f64);
     }
-    Ok(Tolerance { step, leading, parameters })
+    Ok(ColourTolerance { step, leading, parameters })
 }
 
 fn sensitivity(
-    program: &Varied,
+    program: &ProgramFunction,
     at: usize,
     step: f64,
     control: &Control,
-) -> Result<(Sensitivity, ColourTable), ToleranceError> {
+) -> Result<(ColourSensitivity, ColourTable), ToleranceError> {
     let value = program.start()[at];
     let size = if value == 0.0 { 1.0 } else { value.abs() };
     let colours = |moved: f64| -> Result<(f64, ColourTable), ToleranceError> {
@@ -157,13 +157,13 @@ fn sensitivity(
         let [x, y, z] = row.xyz[0].map(|v| v * scale);
         lab::from_xyz(Xyz::new(x, y, z), white)
     };
-    let rows: Vec<Move> = low
+    let rows: Vec<ColourShift> = low
         .rows
         .iter()
         .zip(&high.rows)
         .map(|(from, to)| {
             let (a, b): (Lab, Lab) = (lab(from), lab(to));
-            Move {
+            ColourShift {
                 leading: from.leading.clone(),
                 thetai: from.thetai,
                 thetas: from.thetas,
@@ -174,7 +174,7 @@ fn sensitivity(
         })
         .collect();
     let largest = rows.iter().map(|row| row.delta_e).fold(0.0, f64::max);
-    let found = Sensitivity {
+    let found = ColourSensitivity {
         name: program.names()[at].clone(),
         value,
         between,
@@ -230,10 +230,10 @@ mod tests {
     const COLOR: &str = "COLOR: wavelength = wl/1000 spectrum = f quantity = brdf illuminant = D65
         observer = CIE1931_2 space = sRGB adaptation = Bradford END";
 
-    fn varied(source: &str, names: &[&str]) -> Varied {
+    fn varied(source: &str, names: &[&str]) -> ProgramFunction {
         let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
         let files = Arc::new(MemoryFiles::default());
-        Varied::new(source, files, Options::default(), &names).unwrap()
+        ProgramFunction::new(source, files, Options::default(), &names).unwrap()
     }
 
     #[test]

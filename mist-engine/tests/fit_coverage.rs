@@ -5,8 +5,8 @@ use std::{f64::consts::TAU, sync::Arc};
 
 use mist_engine::{
     Control, MemoryFiles, Options,
-    fit::{Measured, Settings, fit},
-    varied::Varied,
+    fit::{FitSettings, MeasuredTable, fit},
+    function::ProgramFunction,
 };
 
 /// A rough surface of glass in a goniometer whose aperture is as wide as the lobe's flank, with a
@@ -54,7 +54,7 @@ fn normal(counter: u64) -> f64 {
 fn on_a_hundred_noisy_data_sets_each_interval_covers_the_truth_90_to_99_times() {
     let names = NAMES.map(str::to_owned);
     let files = Arc::new(MemoryFiles::default());
-    let program = Varied::new(PROGRAM, files, Options::default(), &names).unwrap();
+    let program = ProgramFunction::new(PROGRAM, files, Options::default(), &names).unwrap();
     let exact = program.run(&TRUTH, &Control::default()).unwrap().rows;
     let brightest = exact.iter().map(|row| row.outputs[0]).fold(0.0, f64::max);
     let mut covered = [0; 3];
@@ -64,8 +64,8 @@ fn on_a_hundred_noisy_data_sets_each_interval_covers_the_truth_90_to_99_times() 
             let noise = 0.02 * brightest * normal(1000 * set + at);
             text += &format!("{}\t{:?}\n", row.loops[0], row.outputs[0] + noise);
         }
-        let measured = Measured::parse(&text, program.titles(), program.headers()).unwrap();
-        let fit = fit(&program, &measured, &Settings::default(), &Control::default()).unwrap();
+        let measured = MeasuredTable::parse(&text, program.titles(), program.headers()).unwrap();
+        let fit = fit(&program, &measured, &FitSettings::default(), &Control::default()).unwrap();
         for ((count, parameter), truth) in covered.iter_mut().zip(&fit.parameters).zip(TRUTH) {
             let [low, high] = parameter.interval.unwrap();
             *count += usize::from((low..=high).contains(&truth));

@@ -10,26 +10,26 @@ use std::{
 };
 
 use mist_engine::{
-    Control, Failure, Finished, Job, Journal, MemoryFiles, MemorySink, Options, compile,
+    Control, Failure, Job, Journal, MemoryFiles, MemorySink, Options, StepResult, compile,
 };
 
 /// Keeps steps in memory, and stops the run behind so many.
 #[derive(Default)]
 struct Paper {
-    steps: BTreeMap<u64, Finished>,
+    steps: BTreeMap<u64, StepResult>,
     recalled: u64,
     stop_behind: usize,
     cancel: Arc<AtomicBool>,
 }
 
 impl Journal for Paper {
-    fn recall(&mut self, step: u64) -> io::Result<Option<Finished>> {
+    fn recall(&mut self, step: u64) -> io::Result<Option<StepResult>> {
         let found = self.steps.get(&step).cloned();
         self.recalled += u64::from(found.is_some());
         Ok(found)
     }
 
-    fn keep(&mut self, first: u64, steps: &[Finished]) -> io::Result<()> {
+    fn keep(&mut self, first: u64, steps: &[StepResult]) -> io::Result<()> {
         self.steps.extend((first..).zip(steps.iter().cloned()));
         if self.steps.len() > self.stop_behind {
             self.cancel.store(true, Ordering::Relaxed);

@@ -26,13 +26,13 @@ pub use scan::MAX_TOKENS;
 pub use value::Value;
 
 use crate::dialect::Dialect;
-use op::Step;
+use op::Operation;
 
 /// A compiled expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expr {
     text: String,
-    steps: Vec<Step>,
+    steps: Vec<Operation>,
     /// What is run instead of the steps as long as every name holds one number.
     short: Option<Vec<scalar::Code>>,
     names: Vec<String>,

@@ -69,7 +69,7 @@ enum Command {
     Diff(diff::Args),
     CompareSpectra(compare_spectra::Args),
     Fit(Box<fit::Args>),
-    Tolerance(tolerance::Args),
+    ColourTolerance(tolerance::Args),
     Serve(Box<serve::Args>),
     Key(key::Args),
 }
@@ -87,7 +87,7 @@ pub fn main() -> ExitCode {
         Command::Diff(args) => diff::diff(&args),
         Command::CompareSpectra(args) => compare_spectra::compare_spectra(&args),
         Command::Fit(args) => fit::fit(&args),
-        Command::Tolerance(args) => tolerance::tolerance(&args),
+        Command::ColourTolerance(args) => tolerance::tolerance(&args),
         Command::Table(args) => table::table(&args),
         Command::Preview(args) => preview::preview(&args),
         Command::Export(args) => export::export(&args),

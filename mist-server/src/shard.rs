@@ -13,7 +13,7 @@ use std::{
     str::FromStr,
 };
 
-use mist_engine::{Job, Sink, Stream};
+use mist_engine::{Job, OutputStream, Sink};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -99,9 +99,9 @@ impl Label {
             job: name.into(),
             shard,
             steps,
-            results: head(job.results_name(), Stream::Results),
-            listing: head(job.listing_name(), Stream::Listing),
-            samples: job.samples_name().map(|name| head(name.into(), Stream::Samples)),
+            results: head(job.results_name(), OutputStream::Results),
+            listing: head(job.listing_name(), OutputStream::Listing),
+            samples: job.samples_name().map(|name| head(name.into(), OutputStream::Samples)),
         }
     }
 
@@ -282,7 +282,7 @@ impl Journal {
 }
 
 impl Sink for Journal {
-    fn write(&mut self, stream: Stream, text: &str) -> io::Result<()> {
+    fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()> {
         self.texts[stream as usize].push_str(text);
         Ok(())
     }

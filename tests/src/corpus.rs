@@ -6,7 +6,9 @@ use std::{
     sync::Arc,
 };
 
-use mist_engine::{Control, Failure, FileError, Files, Job, MemorySink, Options, Summary, compile};
+use mist_engine::{
+    Control, Failure, FileError, Files, Job, MemorySink, Options, RunSummary, compile,
+};
 use mist_format::Diagnostic;
 use scattering::Mode;
 use serde::Deserialize;
@@ -98,7 +100,7 @@ fn latin1(bytes: &[u8]) -> String {
 }
 
 /// What came of a run.
-pub type Outcome = Result<(MemorySink, Summary), Failure>;
+pub type Outcome = Result<(MemorySink, RunSummary), Failure>;
 
 /// A program with the folder that its data files are in.
 pub struct Program {

@@ -2,11 +2,11 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use mist_engine::{Control, MemoryFiles, MemorySink, Options, Summary, compile};
+use mist_engine::{Control, MemoryFiles, MemorySink, Options, RunSummary, compile};
 use scattering::{Defect, Mode};
 
 /// The last number of the results, and what the run has to tell.
-fn run(program: &str, mode: Mode) -> (f64, Summary) {
+fn run(program: &str, mode: Mode) -> (f64, RunSummary) {
     let files = [
         ("gold.txt", "; n, k\n0.4 2.0 0.0\n0.7 2.0 0.0\n"),
         ("/gold.txt", "; n, k\n0.4 3.0 0.0\n0.7 3.0 0.0\n"),

@@ -4,7 +4,7 @@
 
 use std::{collections::BTreeMap, fmt::Write as _, io, sync::Arc};
 
-use mist_engine::{Control, Failure, Limits, MemoryFiles, Options, Sink, Stream, compile};
+use mist_engine::{Control, Failure, Limits, MemoryFiles, Options, OutputStream, Sink, compile};
 
 /// A program with the loops `vary`.
 fn text(vary: &str) -> String {
@@ -23,7 +23,7 @@ struct Counter {
 }
 
 impl Sink for Counter {
-    fn write(&mut self, _: Stream, text: &str) -> io::Result<()> {
+    fn write(&mut self, _: OutputStream, text: &str) -> io::Result<()> {
         self.bytes += text.len();
         Ok(())
     }

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     Job,
-    job::{IntegralPlan, Key, Setting},
+    job::{ApertureParameter, ApertureSetting, IntegralPlan},
 };
 
 /// Room for numbers with a few digits: π/2 is also 1.5708, 2π is also 6.2832.
@@ -55,7 +55,7 @@ fn settings_of(plan: &IntegralPlan) -> Vec<Reading<'_>> {
     plan.settings.iter().flat_map(|setting| setting_angles(plan, setting)).collect()
 }
 
-fn setting_angles<'j>(plan: &'j IntegralPlan, setting: &'j Setting) -> Vec<Reading<'j>> {
+fn setting_angles<'j>(plan: &'j IntegralPlan, setting: &'j ApertureSetting) -> Vec<Reading<'j>> {
     let reading = |what: &str, element, most| {
         let what = format!("{what} of {}", plan.name);
         angle(what, &setting.text, Source::Expr(&setting.expr), element, most)
@@ -69,15 +69,15 @@ fn setting_angles<'j>(plan: &'j IntegralPlan, setting: &'j Setting) -> Vec<Readi
         ]
     };
     match setting.key {
-        Key::Center => direction("CENTER"),
-        Key::OuterCenter => direction("OUTERCENTER"),
-        Key::InnerCenter => direction("INNERCENTER"),
-        Key::Vertex => direction("VERTEX"),
-        Key::PolCenter => direction("POLCENTER"),
-        Key::Alpha => vec![reading("ALPHA", Element::Last, PI)],
-        Key::OuterAlpha => vec![reading("OUTERALPHA", Element::Last, PI)],
-        Key::InnerAlpha => vec![reading("INNERALPHA", Element::Last, PI)],
-        Key::Pol | Key::InPol => Vec::new(),
+        ApertureParameter::Center => direction("CENTER"),
+        ApertureParameter::OuterCenter => direction("OUTERCENTER"),
+        ApertureParameter::InnerCenter => direction("INNERCENTER"),
+        ApertureParameter::Vertex => direction("VERTEX"),
+        ApertureParameter::PolCenter => direction("POLCENTER"),
+        ApertureParameter::Alpha => vec![reading("ALPHA", Element::Last, PI)],
+        ApertureParameter::OuterAlpha => vec![reading("OUTERALPHA", Element::Last, PI)],
+        ApertureParameter::InnerAlpha => vec![reading("INNERALPHA", Element::Last, PI)],
+        ApertureParameter::Pol | ApertureParameter::InPol => Vec::new(),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::{
     fault::Fault,
     region::{Region, RegionError},
     sampling::{Layout, LayoutKey},
-    step::{Integral, Step},
+    step::{Step, StepIntegral},
 };
 
 /// Fewer directions than this are no average over an aperture.
@@ -152,7 +152,7 @@ impl<'j> Apertures<'j> {
 
 impl Seen {
     /// Counts the directions of a layout that was not seen before.
-    fn count(&mut self, integral: &Integral, estimate: f64) -> Result<(), RegionError> {
+    fn count(&mut self, integral: &StepIntegral, estimate: f64) -> Result<(), RegionError> {
         let is_area = !matches!(integral.region, Region::Differential { .. });
         if !is_area || estimate > COUNTED || self.layouts.len() >= LAYOUTS {
             return Ok(());

@@ -9,7 +9,7 @@ use mist_format::{
 };
 
 use super::origin::{Element, Origin, is_converted, is_variable_converted, of_variable, origin};
-use crate::{Job, scope::Scope};
+use crate::{Job, scope::SlotValues};
 
 /// Where the number is found.
 pub(super) enum Source<'j> {
@@ -41,7 +41,7 @@ pub(super) struct Reading<'j> {
 
 impl<'j> Reading<'j> {
     /// Looks at the value in this step.
-    pub(super) fn see(&mut self, scope: &mut Scope) {
+    pub(super) fn see(&mut self, scope: &mut SlotValues) {
         let value = match &self.source {
             Source::Number(x) => Some((*x).into()),
             Source::Slot(slot) => scope.get(*slot).cloned(),

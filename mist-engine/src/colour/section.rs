@@ -15,11 +15,11 @@ use spectra::{
 };
 
 use crate::{
-    Library,
+    DataFiles,
     fault::placed,
-    job::{Entry, OutputPlan},
+    job::{OutputPlan, VariableEntry},
     quirk::dialect,
-    scope::Names,
+    scope::SlotNames,
     sweep::LoopPlan,
 };
 
@@ -59,13 +59,13 @@ pub(crate) enum Role {
 
 /// What the section is compiled with.
 pub(crate) struct Context<'a> {
-    pub(crate) names: &'a mut Names,
+    pub(crate) names: &'a mut SlotNames,
     pub(crate) mode: Mode,
-    pub(crate) entries: &'a [Entry],
+    pub(crate) entries: &'a [VariableEntry],
     pub(crate) variables: &'a [Variable],
     pub(crate) loops: &'a [LoopPlan],
     pub(crate) outputs: &'a [OutputPlan],
-    pub(crate) library: &'a Library,
+    pub(crate) library: &'a DataFiles,
     pub(crate) job: &'a str,
     pub(crate) basis: &'a str,
     pub(crate) incident: Option<[f64; 4]>,

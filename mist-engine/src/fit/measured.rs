@@ -17,7 +17,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::varied::Row;
+use crate::function::OutputRow;
 
 /// Loop values are printed with six digits; nothing closer than this can be told apart.
 const SAME: f64 = 2e-6;
@@ -37,7 +37,7 @@ pub struct Datum {
 
 /// A table of measured values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasuredTable {
     /// The loops that have a column.
     loops: Vec<usize>,
     /// Values of those loops, row by row.
@@ -70,7 +70,7 @@ pub enum MeasuredError {
     },
     /// A cell cannot be used.
     #[error("line {line}, column {column:?}: {text:?} is not {expected}")]
-    Cell {
+    LoopCell {
         /// Line of the file, from 1.
         line: usize,
         /// Name of the column.
@@ -107,7 +107,7 @@ pub enum MeasuredError {
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Role {
+enum MeasuredColumn {
     Loop(usize),
     Output(usize),
     Sigma(usize),
@@ -116,7 +116,7 @@ enum Role {
     Ignored,
 }
 
-impl Measured {
+impl MeasuredTable {
     /// Reads a table for a program whose results have the columns `loops` and `outputs` and the
     /// lines `headers` above them.
     ///
@@ -136,13 +136,14 @@ impl Measured {
         let mut lines = lines.peekable();
         let (_, first) = lines.next().ok_or(MeasuredError::Empty)?;
         let names = names(first);
-        let roles: Vec<Role> = names.iter().map(|name| role(name, loops, outputs)).collect();
+        let roles: Vec<MeasuredColumn> =
+            names.iter().map(|name| role(name, loops, outputs)).collect();
         for (at, name) in names.iter().enumerate() {
-            if roles[at] != Role::Ignored && names[..at].contains(name) {
+            if roles[at] != MeasuredColumn::Ignored && names[..at].contains(name) {
                 return Err(MeasuredError::Twice(name.clone()));
             }
         }
-        if !roles.iter().any(|role| matches!(role, Role::Output(_))) {
+        if !roles.iter().any(|role| matches!(role, MeasuredColumn::Output(_))) {
             return Err(MeasuredError::NoOutput(outputs.join(", ")));
         }
         let commas = !first.contains('\t') && first.contains(',');
@@ -150,7 +151,7 @@ impl Measured {
             loops: roles.iter().filter_map(|role| role.of_loop()).collect(),
             places: Vec::new(),
             data: Vec::new(),
-            ignored: names_of(&names, &roles, Role::Ignored),
+            ignored: names_of(&names, &roles, MeasuredColumn::Ignored),
         };
         for (line, text) in lines {
             let cells: Vec<&str> = match commas {
@@ -181,12 +182,12 @@ impl Measured {
         line: usize,
         cells: &[&str],
         names: &[String],
-        roles: &[Role],
+        roles: &[MeasuredColumn],
     ) -> Result<(), MeasuredError> {
         let row = self.places.len() + 1;
         let number = |at: usize, expected, good: fn(f64) -> bool| {
             let value = cells[at].parse().ok().filter(|value| good(*value));
-            value.ok_or_else(|| MeasuredError::Cell {
+            value.ok_or_else(|| MeasuredError::LoopCell {
                 line,
                 column: names[at].clone(),
                 text: cells[at].to_owned(),
@@ -199,23 +200,23 @@ impl Measured {
         let mut common = 1.0;
         for (at, role) in roles.iter().enumerate() {
             match role {
-                Role::Loop(_) => place.push(cells[at].to_owned()),
-                Role::Output(output) => {
+                MeasuredColumn::Loop(_) => place.push(cells[at].to_owned()),
+                MeasuredColumn::Output(output) => {
                     let value = number(at, "a number", |v| v.is_nan() || v.is_finite())?;
                     values.push((*output, value));
                 }
-                Role::Sigma(output) => {
+                MeasuredColumn::Sigma(output) => {
                     let sigma = number(at, "a positive number", |v| v > 0.0 && v.is_finite())?;
                     sigmas.insert(*output, sigma);
                 }
-                Role::SigmaOfAll => {
+                MeasuredColumn::SigmaOfAll => {
                     common = number(at, "a positive number", |v| v > 0.0 && v.is_finite())?;
                 }
-                Role::Weight => {
+                MeasuredColumn::Weight => {
                     let weight = number(at, "zero or a positive number", |v| v >= 0.0)?;
                     common = 1.0 / f64::sqrt(weight);
                 }
-                Role::Ignored => {}
+                MeasuredColumn::Ignored => {}
             }
         }
         for (output, value) in values.into_iter().filter(|(_, value)| !value.is_nan()) {
@@ -235,7 +236,7 @@ impl Measured {
     /// If rows and lines cannot be brought together.
     pub(super) fn locate(
         &self,
-        rows: &[Row],
+        rows: &[OutputRow],
         titles: &[String],
     ) -> Result<Vec<usize>, MeasuredError> {
         if self.loops.is_empty() {
@@ -247,7 +248,7 @@ impl Measured {
             return Ok(self.data.iter().map(|datum| datum.row - 1).collect());
         }
         let line = |(at, place): (usize, &Vec<String>)| {
-            let here = |row: &&Row| {
+            let here = |row: &&OutputRow| {
                 self.loops.iter().zip(place).all(|(each, cell)| same(&row.loops[*each], cell))
             };
             let found = rows.iter().filter(here).count();
@@ -267,7 +268,7 @@ impl Measured {
     }
 }
 
-impl Role {
+impl MeasuredColumn {
     fn of_loop(self) -> Option<usize> {
         match self {
             Self::Loop(at) => Some(at),
@@ -288,25 +289,25 @@ fn names(line: &str) -> Vec<String> {
     names.into_iter().map(|name| name.trim().to_owned()).collect()
 }
 
-fn role(name: &str, loops: &[String], outputs: &[String]) -> Role {
+fn role(name: &str, loops: &[String], outputs: &[String]) -> MeasuredColumn {
     let find = |list: &[String], name: &str| list.iter().position(|each| each == name);
     let inner = name.strip_prefix("sigma(").and_then(|rest| rest.strip_suffix(')'));
     if let Some(at) = find(outputs, name) {
-        Role::Output(at)
+        MeasuredColumn::Output(at)
     } else if let Some(at) = find(loops, name) {
-        Role::Loop(at)
+        MeasuredColumn::Loop(at)
     } else if let Some(at) = inner.and_then(|label| find(outputs, label)) {
-        Role::Sigma(at)
+        MeasuredColumn::Sigma(at)
     } else {
         match name {
-            "sigma" => Role::SigmaOfAll,
-            "weight" => Role::Weight,
-            _ => Role::Ignored,
+            "sigma" => MeasuredColumn::SigmaOfAll,
+            "weight" => MeasuredColumn::Weight,
+            _ => MeasuredColumn::Ignored,
         }
     }
 }
 
-fn names_of(names: &[String], roles: &[Role], wanted: Role) -> Vec<String> {
+fn names_of(names: &[String], roles: &[MeasuredColumn], wanted: MeasuredColumn) -> Vec<String> {
     names.iter().zip(roles).filter(|(_, role)| **role == wanted).map(|(n, _)| n.clone()).collect()
 }
 
@@ -326,15 +327,17 @@ mod tests {
         [vec!["angle".into()], vec!["R".into(), "the sum".into()]]
     }
 
-    fn rows() -> Vec<Row> {
-        [0.1, 0.2, 0.3].map(|a: f64| Row { loops: vec![a.to_string()], outputs: vec![] }).into()
+    fn rows() -> Vec<OutputRow> {
+        [0.1, 0.2, 0.3]
+            .map(|a: f64| OutputRow { loops: vec![a.to_string()], outputs: vec![] })
+            .into()
     }
 
     #[test]
     fn results_of_the_program_are_a_table() {
         let headers = ["A title, with a comma".to_owned()];
         let text = "A title, with a comma\nangle\tR\tthe sum\t\n0.1\t  1\t  2\t\n0.2\t3\t nan\t\n";
-        let table = Measured::parse(text, &titles(), &headers).unwrap();
+        let table = MeasuredTable::parse(text, &titles(), &headers).unwrap();
         let values: Vec<_> = table.data().iter().map(|d| (d.row, d.output, d.value)).collect();
         assert_eq!(values, [(1, 0, 1.0), (1, 1, 2.0), (2, 0, 3.0)]);
         assert_eq!(table.locate(&rows(), &titles()[0]).unwrap(), [0, 0, 1]);
@@ -343,12 +346,12 @@ mod tests {
     #[test]
     fn rows_may_stand_in_any_order_and_have_uncertainties() {
         let text = "# by hand\nR,angle,sigma(R),note\n5,0.3000001,0.5,x\n4,0.1,0.25,y\n";
-        let table = Measured::parse(text, &titles(), &[]).unwrap();
+        let table = MeasuredTable::parse(text, &titles(), &[]).unwrap();
         assert_eq!(table.locate(&rows(), &titles()[0]).unwrap(), [2, 0]);
         assert_eq!(table.data()[1].sigma, 0.25);
         assert_eq!(table.ignored(), ["note"]);
         let text = "R weight\n1 4\n2 0\n3 1\n";
-        let table = Measured::parse(text, &titles(), &[]).unwrap();
+        let table = MeasuredTable::parse(text, &titles(), &[]).unwrap();
         let sigmas: Vec<_> = table.data().iter().map(|d| (d.row, d.sigma)).collect();
         assert_eq!(sigmas, [(1, 0.5), (3, 1.0)]);
         assert_eq!(table.locate(&rows(), &titles()[0]).unwrap(), [0, 2]);
@@ -356,13 +359,13 @@ mod tests {
 
     #[test]
     fn tables_that_do_not_fit_are_refused() {
-        let parse = |text| Measured::parse(text, &titles(), &[]);
+        let parse = |text| MeasuredTable::parse(text, &titles(), &[]);
         assert_eq!(parse(" \n"), Err(MeasuredError::Empty));
         assert!(matches!(parse("angle\n1\n"), Err(MeasuredError::NoOutput(_))));
         assert!(matches!(parse("R R\n1 1\n"), Err(MeasuredError::Twice(_))));
         assert!(matches!(parse("R angle\n1\n"), Err(MeasuredError::Width { line: 2, .. })));
-        assert!(matches!(parse("R\n1,5\n"), Err(MeasuredError::Cell { line: 2, .. })));
-        assert!(matches!(parse("R sigma\n1 0\n"), Err(MeasuredError::Cell { line: 2, .. })));
+        assert!(matches!(parse("R\n1,5\n"), Err(MeasuredError::LoopCell { line: 2, .. })));
+        assert!(matches!(parse("R sigma\n1 0\n"), Err(MeasuredError::LoopCell { line: 2, .. })));
         let locate = |text| parse(text).unwrap().locate(&rows(), &titles()[0]);
         assert!(matches!(locate("R\n1\n"), Err(MeasuredError::Count { .. })));
         let far = locate("R angle\n1 0.4\n");

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSide, MPSuccess};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-use super::{Fit, FitError, Fitted, Measured, Residuals, Settings, covariance};
-use crate::{Control, Failure, varied::Varied};
+use super::{Fit, FitError, FitSettings, Fitted, MeasuredTable, Residuals, covariance};
+use crate::{Control, Failure, function::ProgramFunction};
 
 /// Residual where the program cannot be run: so large that the step is taken back, so small that
 /// its square is finite.
@@ -18,10 +18,10 @@ const REFUSED: f64 = 1e30;
 const REACHED: f64 = 1e-10;
 
 /// A fit under way.
-pub(super) struct Problem<'a> {
-    program: &'a Varied,
-    measured: &'a Measured,
-    settings: &'a Settings,
+pub(super) struct LeastSquares<'a> {
+    program: &'a ProgramFunction,
+    measured: &'a MeasuredTable,
+    settings: &'a FitSettings,
     control: &'a Control,
     start: Vec<f64>,
     parameters: Vec<MPPar>,
@@ -34,11 +34,11 @@ pub(super) struct Problem<'a> {
     broken: Option<FitError>,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> LeastSquares<'a> {
     pub(super) fn new(
-        program: &'a Varied,
-        measured: &'a Measured,
-        settings: &'a Settings,
+        program: &'a ProgramFunction,
+        measured: &'a MeasuredTable,
+        settings: &'a FitSettings,
         control: &'a Control,
     ) -> Result<Self, FitError> {
         check(settings)?;
@@ -182,7 +182,7 @@ impl<'a> Problem<'a> {
         self.program.names().iter().cloned().zip(values.iter().copied()).collect()
     }
 
-    fn run(&mut self, values: &[f64]) -> Result<Vec<crate::varied::Row>, FitError> {
+    fn run(&mut self, values: &[f64]) -> Result<Vec<crate::function::OutputRow>, FitError> {
         self.runs += 1;
         match self.program.run(values, self.control) {
             Ok(ran) => Ok(ran.rows),
@@ -242,7 +242,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-impl MPFitter for Problem<'_> {
+impl MPFitter for LeastSquares<'_> {
     fn eval(&mut self, values: &[f64], deviates: &mut [f64]) -> MPResult<()> {
         match self.residuals(values) {
             Ok(residuals) => deviates.copy_from_slice(&residuals),
@@ -312,7 +312,7 @@ impl ByName<'_> {
     }
 }
 
-fn check(settings: &Settings) -> Result<(), FitError> {
+fn check(settings: &FitSettings) -> Result<(), FitError> {
     let wrong = |name: &str, problem: &str| {
         Err(FitError::Setting { name: name.into(), problem: problem.into() })
     };
@@ -332,7 +332,7 @@ fn check(settings: &Settings) -> Result<(), FitError> {
 }
 
 /// How many standard errors an interval reaches to each side.
-fn quantile(settings: &Settings, freedom: usize) -> f64 {
+fn quantile(settings: &FitSettings, freedom: usize) -> f64 {
     let upper = 0.5 + 0.5 * settings.confidence;
     if settings.absolute {
         Normal::standard().inverse_cdf(upper)
@@ -359,12 +359,12 @@ mod tests {
 
     #[test]
     fn quantiles_of_students_t() {
-        let settings = Settings::default();
+        let settings = FitSettings::default();
         // Tables of Student's distribution, three decimals.
         for (freedom, expected) in [(1, 12.706), (5, 2.571), (30, 2.042), (120, 1.980)] {
             assert!((quantile(&settings, freedom) - expected).abs() < 6e-4, "{freedom}");
         }
-        let absolute = Settings { absolute: true, ..settings };
+        let absolute = FitSettings { absolute: true, ..settings };
         assert!((quantile(&absolute, 5) - 1.959964).abs() < 1e-6);
     }
 }

@@ -23,9 +23,10 @@ const LINE: &str = "
     FILES: END
 ";
 
-fn program(names: &[&str]) -> Varied {
+fn program(names: &[&str]) -> ProgramFunction {
     let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-    Varied::new(LINE, Arc::new(MemoryFiles::default()), Options::default(), &names).unwrap()
+    ProgramFunction::new(LINE, Arc::new(MemoryFiles::default()), Options::default(), &names)
+        .unwrap()
 }
 
 /// A table of `output` over x, and what the fit of `names` to it says.
@@ -33,14 +34,14 @@ fn fitted(
     names: &[&str],
     output: &str,
     value: impl Fn(f64) -> f64,
-    settings: &Settings,
+    settings: &FitSettings,
 ) -> Result<Fit, FitError> {
     let program = program(names);
     let mut text = format!("x {output}\n");
     for x in 1..=8 {
         text += &format!("{x} {:?}\n", value(f64::from(x)));
     }
-    let measured = Measured::parse(&text, program.titles(), program.headers()).unwrap();
+    let measured = MeasuredTable::parse(&text, program.titles(), program.headers()).unwrap();
     fit(&program, &measured, settings, &Control::default())
 }
 
@@ -52,7 +53,7 @@ fn noisy(x: f64) -> f64 {
 
 #[test]
 fn a_straight_line_has_the_errors_of_the_textbook() {
-    let fit = fitted(&["a", "b"], "y", noisy, &Settings::default()).unwrap();
+    let fit = fitted(&["a", "b"], "y", noisy, &FitSettings::default()).unwrap();
     let [a, b] = &fit.parameters[..] else { panic!("two variables") };
     // χ² = 8·0.01, ν = 6; Σ(x − x̄)² = 42, so s_a = s/√42 and s_b = s √(1/8 + 4.5²/42).
     let s = (0.08_f64 / 6.0).sqrt();
@@ -73,7 +74,7 @@ fn a_straight_line_has_the_errors_of_the_textbook() {
 
 #[test]
 fn known_uncertainties_do_not_ask_the_residuals() {
-    let settings = Settings { absolute: true, ..Settings::default() };
+    let settings = FitSettings { absolute: true, ..FitSettings::default() };
     let fit = fitted(&["a", "b"], "y", noisy, &settings).unwrap();
     let error = fit.parameters[0].standard_error.unwrap();
     assert!((error * 42_f64.sqrt() - 1.0).abs() < 1e-6, "{error}");
@@ -81,10 +82,10 @@ fn known_uncertainties_do_not_ask_the_residuals() {
 
 #[test]
 fn what_cannot_be_determined_is_told_with_what_takes_its_place() {
-    let product = fitted(&["a", "b"], "product", |x| 6.0 * x, &Settings::default());
+    let product = fitted(&["a", "b"], "product", |x| 6.0 * x, &FitSettings::default());
     let Err(FitError::NotIdentifiable { name, with }) = product else { panic!("{product:?}") };
     assert_eq!((name.as_str(), &with[..]), ("b", &["a".to_owned()][..]));
-    let idle = fitted(&["a", "idle"], "y", noisy, &Settings::default());
+    let idle = fitted(&["a", "idle"], "y", noisy, &FitSettings::default());
     let Err(error @ FitError::NotIdentifiable { .. }) = idle else { panic!("{idle:?}") };
     assert!(error.to_string().contains("idle cannot be determined: nothing that was measured"));
 }
@@ -92,7 +93,7 @@ fn what_cannot_be_determined_is_told_with_what_takes_its_place() {
 #[test]
 fn a_bound_is_kept_to_and_told() {
     let bounds = BTreeMap::from([("b".to_owned(), [-1.0, 5.0])]);
-    let settings = Settings { bounds, ..Settings::default() };
+    let settings = FitSettings { bounds, ..FitSettings::default() };
     let fit = fitted(&["a", "b"], "y", noisy, &settings).unwrap();
     let b = &fit.parameters[1];
     assert!(b.at_bound && b.value == -1.0 && b.interval.is_none(), "{b:?}");
@@ -102,18 +103,18 @@ fn a_bound_is_kept_to_and_told() {
 #[test]
 fn values_that_the_program_does_not_take_are_stepped_around() {
     // √root from a start whose first step leads far below zero.
-    let fit = fitted(&["root"], "r", |x| 0.02 * x, &Settings::default()).unwrap();
+    let fit = fitted(&["root"], "r", |x| 0.02 * x, &FitSettings::default()).unwrap();
     assert!((fit.parameters[0].value / 4e-4 - 1.0).abs() < 1e-6, "{fit:?}");
 }
 
 #[test]
 fn wrong_settings_and_too_few_data_are_refused() {
-    let with = |change: fn(&mut Settings)| {
-        let mut settings = Settings::default();
+    let with = |change: fn(&mut FitSettings)| {
+        let mut settings = FitSettings::default();
         change(&mut settings);
         fitted(&["a"], "y", noisy, &settings)
     };
-    let refused: [fn(&mut Settings); 5] = [
+    let refused: [fn(&mut FitSettings); 5] = [
         |s| s.step = 0.0,
         |s| s.confidence = 1.0,
         |s| s.iterations = 0,
@@ -124,7 +125,7 @@ fn wrong_settings_and_too_few_data_are_refused() {
         assert!(matches!(with(change), Err(FitError::Setting { .. })));
     }
     let program = program(&["a", "b"]);
-    let few = Measured::parse("x y\n1 2\n2 3\n", program.titles(), &[]).unwrap();
-    let few = fit(&program, &few, &Settings::default(), &Control::default());
+    let few = MeasuredTable::parse("x y\n1 2\n2 3\n", program.titles(), &[]).unwrap();
+    let few = fit(&program, &few, &FitSettings::default(), &Control::default());
     assert!(matches!(few, Err(FitError::TooFewData { data: 2, variables: 2 })));
 }

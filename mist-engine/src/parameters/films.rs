@@ -5,7 +5,7 @@ use std::hash::{Hash, Hasher};
 use mist_format::optics::{self, OpticsError, StackText};
 use scattering::stack::Film;
 
-use super::{Context, SetError, index::IndexState, source::Source};
+use super::{ParameterContext, SetError, index::IndexState, source::TableSource};
 
 /// Films, the one next to the substrate first.
 #[derive(Clone, Debug, Default)]
@@ -23,7 +23,7 @@ impl Hash for FilmsState {
 
 impl FilmsState {
     /// Reads films, or the name of a file with films; nothing is no film.
-    pub(crate) fn read(text: &str, context: &Context<'_>) -> Result<Self, SetError> {
+    pub(crate) fn read(text: &str, context: &ParameterContext<'_>) -> Result<Self, SetError> {
         let mut state = Self::default();
         state.grow(text, context)?;
         Ok(state)
@@ -34,7 +34,7 @@ impl FilmsState {
         &mut self,
         name: &str,
         text: &str,
-        context: &Context<'_>,
+        context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
         match name {
             "grow" => self.grow(text, context),
@@ -47,7 +47,7 @@ impl FilmsState {
         }
     }
 
-    fn grow(&mut self, text: &str, context: &Context<'_>) -> Result<(), SetError> {
+    fn grow(&mut self, text: &str, context: &ParameterContext<'_>) -> Result<(), SetError> {
         let dialect = context.library.dialect();
         let wrong = |error: OpticsError| SetError::value(error.to_string()).help(error.help());
         let films = match StackText::parse(text, dialect).map_err(wrong)? {
@@ -60,7 +60,7 @@ impl FilmsState {
             }
         };
         for optics::Film { material, thickness } in films {
-            let (source, column) = Source::of_index_text(material, context.library)?;
+            let (source, column) = TableSource::of_index_text(material, context.library)?;
             let index = IndexState::of_source("film", source, column, context)?.value();
             self.films.push(Film { index, thickness });
         }

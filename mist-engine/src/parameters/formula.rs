@@ -9,22 +9,22 @@ use mist_format::{
 use scattering::spec;
 
 use super::SetError;
-use crate::Library;
+use crate::DataFiles;
 
 /// A function of `x` with the text it came from.
 #[derive(Clone)]
-pub(crate) struct Formula {
+pub(crate) struct FormulaState {
     text: Arc<str>,
     function: spec::Formula,
 }
 
-impl fmt::Debug for Formula {
+impl fmt::Debug for FormulaState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
     }
 }
 
-impl Formula {
+impl FormulaState {
     /// A number that does not depend on x.
     pub(crate) fn constant(text: &str) -> Self {
         let value = mist_format::number::whole_number(text).unwrap_or(f64::NAN);
@@ -32,7 +32,7 @@ impl Formula {
     }
 
     /// The function that `text` says.
-    pub(crate) fn read(text: &str, library: &Library) -> Result<Self, SetError> {
+    pub(crate) fn read(text: &str, library: &DataFiles) -> Result<Self, SetError> {
         let expr = Expr::compile_library(text)
             .map_err(|error| SetError::value(format!("{text:?}: {error}")))?;
         Ok(Self { text: text.into(), function: columns(&expr, "x", 0, library)? })
@@ -55,7 +55,7 @@ pub(crate) fn columns(
     expr: &Expr,
     variable: &str,
     element: usize,
-    library: &Library,
+    library: &DataFiles,
 ) -> Result<spec::Formula, SetError> {
     let text = expr.text();
     if let Some(name) = expr.names().iter().find(|name| *name != variable) {
@@ -77,7 +77,7 @@ pub(crate) fn columns(
 #[derive(Clone)]
 struct Variable {
     x: [f64; 1],
-    library: Library,
+    library: DataFiles,
 }
 
 impl expr::Scope for Variable {

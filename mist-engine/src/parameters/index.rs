@@ -8,7 +8,7 @@ use std::{
 use mist_format::{Dialect, number::whole_number, optics::IndexText};
 use scattering::optics::{Index, Table};
 
-use super::{Context, SetError, source::Source, table::TableState};
+use super::{ParameterContext, SetError, source::TableSource, table::TableState};
 use crate::quirk::Quirk;
 
 /// An index of refraction: one table for n, one for k.
@@ -53,17 +53,17 @@ impl IndexState {
     }
 
     /// Reads the text of optical constants.
-    pub(crate) fn read(text: &str, context: &Context<'_>) -> Result<Self, SetError> {
-        let (source, column) = Source::of_index(text, context)?;
+    pub(crate) fn read(text: &str, context: &ParameterContext<'_>) -> Result<Self, SetError> {
+        let (source, column) = TableSource::of_index(text, context)?;
         let misread = is_misread(text);
         Ok(Self { misread, ..Self::of_source(text, source, column, context)? })
     }
 
     pub(crate) fn of_source(
         text: &str,
-        source: Source,
+        source: TableSource,
         column: usize,
-        context: &Context<'_>,
+        context: &ParameterContext<'_>,
     ) -> Result<Self, SetError> {
         let n = TableState::new(text, source.clone(), column, context)?;
         let k = TableState::new(text, source, column + 1, context)?;
@@ -75,7 +75,7 @@ impl IndexState {
         &mut self,
         path: &str,
         text: &str,
-        context: &Context<'_>,
+        context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
         let (name, rest) = path.split_once('.').map_or((path, None), |(n, r)| (n, Some(r)));
         let part = match name {
@@ -99,7 +99,7 @@ impl IndexState {
     }
 
     /// Keeps the value of the last evaluation, as NIST's library does.
-    fn hold(&mut self, context: &Context<'_>) {
+    fn hold(&mut self, context: &ParameterContext<'_>) {
         let Some(lambda) = context.evaluated_at else { return };
         if Quirk::StaleInterpolation.applies_in(context.mode) {
             let value = self.value().at(lambda);

@@ -5,30 +5,30 @@ use std::hash::{Hash, Hasher};
 use mist_format::{number::general, suggestion::did_you_mean};
 use scattering::{Class, Mode, Node, spec::Met};
 
-use super::{Context, SetError, slot::Slot};
+use super::{ParameterContext, SetError, state::ParameterState};
 
 /// Parameters that every class of NIST's library takes and that change nothing here.
 const IGNORED: &[&str] = &["recalc", "quiet"];
 
 /// An object in the tree of parameters.
 #[derive(Clone, Debug)]
-pub(crate) struct Object {
+pub(crate) struct ObjectState {
     pub(crate) class: &'static Class,
     /// One per parameter of the class, in its order.
-    slots: Vec<Slot>,
+    slots: Vec<ParameterState>,
 }
 
-impl Hash for Object {
+impl Hash for ObjectState {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.class.name.hash(state);
         self.slots.hash(state);
     }
 }
 
-impl Object {
+impl ObjectState {
     /// Every parameter at its default.
     pub(crate) fn new(class: &'static Class) -> Self {
-        Self { class, slots: class.parameters().map(Slot::default_of).collect() }
+        Self { class, slots: class.parameters().map(ParameterState::default_of).collect() }
     }
 
     /// Sets the parameter `path`, seen from this object; `before` is this object as it was last
@@ -37,7 +37,7 @@ impl Object {
         &mut self,
         path: &str,
         text: &str,
-        context: &mut Context<'_>,
+        context: &mut ParameterContext<'_>,
         before: Option<&Self>,
     ) -> Result<(), SetError> {
         let (name, rest) = match path.split_once('.') {
@@ -76,7 +76,7 @@ impl Object {
         let Some((at, _)) = self.class.parameter(name) else { return false };
         match (rest, &self.slots[at]) {
             (None, _) => true,
-            (Some(rest), Slot::Member(object)) => object.owns(rest),
+            (Some(rest), ParameterState::Member(object)) => object.owns(rest),
             (Some(_), _) => false,
         }
     }
@@ -90,8 +90,8 @@ impl Object {
     pub(crate) fn set_wavelength(&mut self, lambda: f64) {
         for (slot, param) in self.slots.iter_mut().zip(self.class.parameters()) {
             match slot {
-                Slot::Member(object) => object.edit().set_wavelength(lambda),
-                Slot::Number(value) if param.name == "lambda" => {
+                ParameterState::Member(object) => object.edit().set_wavelength(lambda),
+                ParameterState::Number(value) if param.name == "lambda" => {
                     // The digits that a program would send.
                     *value = general(lambda, 16).parse().unwrap_or(lambda);
                 }
@@ -103,8 +103,8 @@ impl Object {
     /// Whether an index in here remembers a value for its last wavelength.
     pub(crate) fn remembers(&self) -> bool {
         self.slots.iter().any(|slot| match slot {
-            Slot::Member(object) => object.remembers(),
-            Slot::Index(index) => index.remembers(),
+            ParameterState::Member(object) => object.remembers(),
+            ParameterState::Index(index) => index.remembers(),
             _ => false,
         })
     }
@@ -113,10 +113,12 @@ impl Object {
         let lambda = self.wavelength().or(around);
         for slot in &mut self.slots {
             match slot {
-                Slot::Member(object) if object.remembers() => {
+                ParameterState::Member(object) if object.remembers() => {
                     object.edit().forget_other_wavelengths(lambda);
                 }
-                Slot::Index(index) if index.holds_other_than(lambda) => index.edit().forget(),
+                ParameterState::Index(index) if index.holds_other_than(lambda) => {
+                    index.edit().forget()
+                }
                 _ => {}
             }
         }

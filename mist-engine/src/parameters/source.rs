@@ -9,12 +9,12 @@ use mist_format::{
 };
 use scattering::optics::{Axis, Rise, Table};
 
-use super::{Context, SetError, formula::columns};
-use crate::Library;
+use super::{ParameterContext, SetError, formula::columns};
+use crate::DataFiles;
 
 /// A function of one variable with several columns; column 2 is the first of them.
 #[derive(Clone, Debug)]
-pub(crate) enum Source {
+pub(crate) enum TableSource {
     /// The same values everywhere; behind the last one follow zeros.
     Constant(Vec<f64>),
     /// Expressions of a variable.
@@ -27,18 +27,18 @@ pub(crate) enum Source {
 
 /// How a source is read.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Reading {
+pub(crate) struct Interpolation {
     pub(crate) axis: Axis,
     pub(crate) rise: Rise,
     /// Parameters of a formula file that differ from the file's own values.
     pub(crate) parameters: Vec<(String, f64)>,
 }
 
-impl Source {
+impl TableSource {
     /// The source that a table's text names, and the column it asks for.
     pub(crate) fn of_table(
         text: &str,
-        context: &Context<'_>,
+        context: &ParameterContext<'_>,
     ) -> Result<(Self, Option<usize>), SetError> {
         let read = TableText::parse(text, context.library.dialect());
         match read.map_err(|error| SetError::value(error.to_string()).help(error.help()))? {
@@ -51,7 +51,10 @@ impl Source {
     }
 
     /// The source that an optical constant's text names, and the column of n.
-    pub(crate) fn of_index(text: &str, context: &Context<'_>) -> Result<(Self, usize), SetError> {
+    pub(crate) fn of_index(
+        text: &str,
+        context: &ParameterContext<'_>,
+    ) -> Result<(Self, usize), SetError> {
         let read = IndexText::parse(text, context.library.dialect())
             .map_err(|error| SetError::value(error.to_string()).help(error.help()))?;
         Self::of_index_text(read, context.library)
@@ -59,7 +62,7 @@ impl Source {
 
     pub(crate) fn of_index_text(
         read: IndexText,
-        library: &Library,
+        library: &DataFiles,
     ) -> Result<(Self, usize), SetError> {
         Ok(match read {
             IndexText::Constant { n, k } => (Self::Constant(vec![n, k]), 2),
@@ -68,7 +71,7 @@ impl Source {
         })
     }
 
-    fn file(name: &str, library: &Library) -> Result<Self, SetError> {
+    fn file(name: &str, library: &DataFiles) -> Result<Self, SetError> {
         let text = library.text(name).map_err(|error| SetError::value(error.to_string()))?;
         let wrong =
             |error: mist_format::table::TableError| SetError::value(format!("{name}: {error}"));
@@ -84,8 +87,8 @@ impl Source {
     pub(crate) fn table(
         &self,
         column: usize,
-        reading: &Reading,
-        library: &Library,
+        reading: &Interpolation,
+        library: &DataFiles,
     ) -> Result<Table, SetError> {
         let element = column.checked_sub(2).ok_or_else(|| {
             SetError::value("column 1 holds the abscissa; values stand in column 2 and beyond")
@@ -135,7 +138,7 @@ fn points(
     file: &str,
     table: &ColumnTable,
     element: usize,
-    reading: &Reading,
+    reading: &Interpolation,
 ) -> Result<Table, SetError> {
     let column = element + 1;
     if column >= table.columns() {

@@ -9,17 +9,17 @@ use mist_format::number::{number_prefix, whole_number};
 use scattering::optics::{Axis, Rise, Table};
 
 use super::{
-    Context, SetError,
-    source::{Reading, Source},
+    ParameterContext, SetError,
+    source::{Interpolation, TableSource},
 };
 
 /// A table, its source, and how it is interpolated.
 #[derive(Clone, Debug)]
 pub(crate) struct TableState {
     text: Arc<str>,
-    source: Source,
+    source: TableSource,
     column: usize,
-    reading: Reading,
+    reading: Interpolation,
     table: Table,
 }
 
@@ -47,29 +47,33 @@ impl TableState {
         let value = values.get(column - 2).copied().unwrap_or(0.0);
         Self {
             text: text.into(),
-            source: Source::Constant(values),
+            source: TableSource::Constant(values),
             column,
-            reading: Reading::default(),
+            reading: Interpolation::default(),
             table: Table::constant(value),
         }
     }
 
     pub(crate) fn new(
         text: &str,
-        source: Source,
+        source: TableSource,
         column: usize,
-        context: &Context<'_>,
+        context: &ParameterContext<'_>,
     ) -> Result<Self, SetError> {
-        let reading = Reading::default();
+        let reading = Interpolation::default();
         let table = source.table(column, &reading, context.library)?;
         Ok(Self { text: text.into(), source, column, reading, table })
     }
 
     /// Replaces the source; the interpolation stays, as in NIST's library.
-    pub(crate) fn replace(&mut self, text: &str, context: &Context<'_>) -> Result<(), SetError> {
-        let (source, asked) = Source::of_table(text, context)?;
+    pub(crate) fn replace(
+        &mut self,
+        text: &str,
+        context: &ParameterContext<'_>,
+    ) -> Result<(), SetError> {
+        let (source, asked) = TableSource::of_table(text, context)?;
         let (axis, rise) = (self.reading.axis, self.reading.rise);
-        let reading = Reading { axis, rise, parameters: Vec::new() };
+        let reading = Interpolation { axis, rise, parameters: Vec::new() };
         let column = asked.unwrap_or(2);
         let table = source.table(column, &reading, context.library)?;
         *self = Self { text: text.into(), source, column, reading, table };
@@ -85,7 +89,7 @@ impl TableState {
         &mut self,
         name: &str,
         text: &str,
-        context: &Context<'_>,
+        context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
         if name.eq_ignore_ascii_case("interpolationx") {
             self.reading.axis = axis(text)?;

@@ -10,7 +10,7 @@ use mist_format::{expr::Expr, number::whole_number};
 
 use crate::{
     Job,
-    parameters::{Parameters, is_below},
+    parameters::{ModelParameters, is_below},
     quirk::dialect,
     sweep::{ListPlan, LoopPlan},
 };
@@ -42,7 +42,7 @@ impl<'j> Alone<'j> {
     }
 
     /// Whether setting the changed parameters in `parameters` replaces all that they were.
-    pub(crate) fn holds_for(&self, parameters: &Parameters) -> bool {
+    pub(crate) fn holds_for(&self, parameters: &ModelParameters) -> bool {
         self.changed.iter().all(|name| parameters.belongs_to_object(name))
     }
 }

@@ -9,15 +9,15 @@ use scattering::Stokes;
 
 use crate::{
     fault::{Fault, fault},
-    job::{IntegralPlan, Key},
+    job::{ApertureParameter, IntegralPlan},
     region::Region,
     sampling::{Sampling, adaptive::Demand},
-    step::Integral,
+    step::StepIntegral,
 };
 
 /// The parameters of an integral while they are read.
 #[derive(Default)]
-pub(super) struct Aperture {
+pub(super) struct ApertureBuilder {
     center: (f64, f64),
     inner_center: (f64, f64),
     alpha: f64,
@@ -28,23 +28,30 @@ pub(super) struct Aperture {
     inpol: Stokes,
 }
 
-impl Aperture {
+impl ApertureBuilder {
     /// Nothing but the incident light.
     pub(super) fn under(inpol: Stokes) -> Self {
         Self { inpol, ..Self::default() }
     }
 
     /// Takes what `text` gave for `key`.
-    pub(super) fn set(&mut self, key: Key, value: &Value, text: &Text) -> Result<(), Fault> {
+    pub(super) fn set(
+        &mut self,
+        key: ApertureParameter,
+        value: &Value,
+        text: &Text,
+    ) -> Result<(), Fault> {
         match key {
-            Key::Center | Key::OuterCenter => self.center = direction(value, text)?,
-            Key::InnerCenter => self.inner_center = direction(value, text)?,
-            Key::Alpha | Key::OuterAlpha => self.alpha = value.number(),
-            Key::InnerAlpha => self.inner_alpha = value.number(),
-            Key::Vertex => self.vertices.push(direction(value, text)?),
-            Key::PolCenter => self.pol_center = direction(value, text)?,
-            Key::Pol => self.pol = Some(stokes(value, text)?),
-            Key::InPol => self.inpol = stokes(value, text)?,
+            ApertureParameter::Center | ApertureParameter::OuterCenter => {
+                self.center = direction(value, text)?
+            }
+            ApertureParameter::InnerCenter => self.inner_center = direction(value, text)?,
+            ApertureParameter::Alpha | ApertureParameter::OuterAlpha => self.alpha = value.number(),
+            ApertureParameter::InnerAlpha => self.inner_alpha = value.number(),
+            ApertureParameter::Vertex => self.vertices.push(direction(value, text)?),
+            ApertureParameter::PolCenter => self.pol_center = direction(value, text)?,
+            ApertureParameter::Pol => self.pol = Some(stokes(value, text)?),
+            ApertureParameter::InPol => self.inpol = stokes(value, text)?,
         }
         Ok(())
     }
@@ -55,7 +62,7 @@ impl Aperture {
         plan: &IntegralPlan,
         sampling: Sampling,
         demand: Option<Demand>,
-    ) -> Integral {
+    ) -> StepIntegral {
         let region = match plan.shape {
             Shape::Differential => Region::Differential { center: self.center },
             Shape::Circle => Region::around(self.center, self.alpha),
@@ -71,7 +78,7 @@ impl Aperture {
             }
         };
         let pol = self.pol.unwrap_or(Stokes::UNPOLARIZED);
-        Integral { region, sampling, demand, pol, inpol: self.inpol }
+        StepIntegral { region, sampling, demand, pol, inpol: self.inpol }
     }
 }
 

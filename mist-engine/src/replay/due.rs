@@ -3,7 +3,7 @@
 
 use mist_format::expr::Expr;
 
-use crate::{Job, scope::Scope};
+use crate::{Job, scope::SlotValues};
 
 /// The entries that are due.
 pub(super) struct Due {
@@ -47,7 +47,7 @@ impl Due {
     }
 
     /// Adds the entries that are concerned by what has changed in `scope`.
-    pub(super) fn look_at(&mut self, scope: &Scope) {
+    pub(super) fn look_at(&mut self, scope: &SlotValues) {
         if scope.now() > self.seen {
             scope.changed_since(self.seen, |slot| {
                 self.concerned[slot as usize].iter().for_each(|at| self.entries.mark(*at));
@@ -58,7 +58,7 @@ impl Due {
 
     /// [`Due::look_at`], where nothing but `slot` may have changed, by the entry `giver`; it stays as
     /// it is even if it reads the slot: an entry before it has given that, and is due.
-    pub(super) fn given(&mut self, scope: &Scope, giver: usize, slot: u32) {
+    pub(super) fn given(&mut self, scope: &SlotValues, giver: usize, slot: u32) {
         if scope.now() > self.seen {
             for at in &self.concerned[slot as usize] {
                 if *at != giver {

@@ -10,10 +10,10 @@ use super::{
 };
 use crate::{
     fault::Fault,
-    parameters::{Parameters, is_below},
+    parameters::{ModelParameters, is_below},
     quirk::Quirk,
     step::Listing,
-    sweep::Content,
+    sweep::EntryContent,
 };
 
 /// What an entry sent to the model last.
@@ -28,8 +28,8 @@ impl Replay<'_> {
     pub(super) fn send_text(&mut self, at: usize, listing: &mut Listing) -> Result<(), Fault> {
         let number;
         let text = match &self.overwritten[at] {
-            Some(Overwritten { content: Content::Text(text), .. }) => text,
-            Some(Overwritten { content: Content::Number(x), .. }) => {
+            Some(Overwritten { content: EntryContent::Text(text), .. }) => text,
+            Some(Overwritten { content: EntryContent::Number(x), .. }) => {
                 number = Value::from(*x).to_text();
                 &*number
             }
@@ -60,7 +60,7 @@ impl Replay<'_> {
             entry: at,
             bits,
             before: self.parameters.fingerprint(),
-            previous: self.previous.as_ref().map(Parameters::fingerprint),
+            previous: self.previous.as_ref().map(ModelParameters::fingerprint),
         });
         let known = setting.and_then(|setting| self.known_settings.get(&setting).cloned());
         let text: Arc<str> =

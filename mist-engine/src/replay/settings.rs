@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use crate::{
-    parameters::{Fingerprint, Parameters},
-    share::Map,
+    parameters::{Fingerprint, ModelParameters},
+    share::FastMap,
 };
 
 /// Settings kept at the same time.
@@ -27,12 +27,12 @@ pub(super) struct Outcome {
     pub(super) text: Arc<str>,
     /// What the listing says of it.
     pub(super) line: Arc<str>,
-    pub(super) after: Parameters,
+    pub(super) after: ModelParameters,
 }
 
 /// The settings of a replay.
 #[derive(Default)]
-pub(super) struct Settings(Map<Setting, Outcome>);
+pub(super) struct Settings(FastMap<Setting, Outcome>);
 
 impl Settings {
     pub(super) fn get(&self, setting: &Setting) -> Option<&Outcome> {

@@ -4,15 +4,15 @@ use std::sync::{Arc, OnceLock};
 
 use scattering::{Mode, Model, Notice, ParamError, spec::Met};
 
-use super::kept::Kept;
-use crate::parameters::{Fingerprint, Parameters};
+use super::cache::WeightedCache;
+use crate::parameters::{Fingerprint, ModelParameters};
 
 /// Models kept at the same time.
 const MODELS: usize = 4096;
 
 /// A model that is built when it is first needed.
 pub(crate) struct ModelCell {
-    parameters: Parameters,
+    parameters: ModelParameters,
     mode: Mode,
     built: OnceLock<Result<Built, ParamError>>,
 }
@@ -40,16 +40,16 @@ impl ModelCell {
 /// Models by their parameters.
 pub(crate) struct Models {
     mode: Mode,
-    cells: Kept<Fingerprint, Arc<ModelCell>>,
+    cells: WeightedCache<Fingerprint, Arc<ModelCell>>,
 }
 
 impl Models {
     pub(crate) fn new(mode: Mode) -> Self {
-        Self { mode, cells: Kept::up_to(MODELS) }
+        Self { mode, cells: WeightedCache::up_to(MODELS) }
     }
 
     /// The cell of the model with these parameters.
-    pub(crate) fn cell(&mut self, parameters: &Parameters) -> Arc<ModelCell> {
+    pub(crate) fn cell(&mut self, parameters: &ModelParameters) -> Arc<ModelCell> {
         let key = parameters.fingerprint();
         if let Some(cell) = self.cells.get(&key) {
             return cell.clone();

@@ -10,12 +10,12 @@ use mist_format::{
     program::{ForLoop, Text},
 };
 
-use super::{Content, Context, Written};
+use super::{EntryContent, LoopContext, LoopWrite};
 use crate::{
     fault::{Fault, placed},
     quirk::Quirk,
-    scope::Known,
-    step::Cell,
+    scope::Memo,
+    step::LoopCell,
 };
 
 /// A FOR loop as compiled.
@@ -40,38 +40,38 @@ pub(crate) struct ForState {
     fraction: f64,
     /// How often it was advanced since it was started.
     at: usize,
-    cell: Cell,
+    cell: LoopCell,
     /// What was made of the first values: a loop that is started again mostly has the same ones.
-    made: Vec<Made>,
-    bounds: Bounds,
+    made: Vec<PreparedValue>,
+    bounds: LoopBounds,
 }
 
 /// What is made of a value.
 #[derive(Clone)]
-struct Made {
+struct PreparedValue {
     /// Of the value.
     bits: u64,
     /// What is written into the entry.
-    content: Content,
+    content: EntryContent,
     /// What is shown.
-    cell: Cell,
+    cell: LoopCell,
 }
 
 /// What the expressions of a, b and s gave last.
 #[derive(Default)]
-struct Bounds {
-    from: Option<Known<f64>>,
-    to: Option<Known<f64>>,
-    by: Option<Known<f64>>,
+struct LoopBounds {
+    from: Option<Memo<f64>>,
+    to: Option<Memo<f64>>,
+    by: Option<Memo<f64>>,
 }
 
 /// Values of which a loop keeps what was made.
 const KEPT: usize = 1 << 12;
 
 fn bound(
-    known: &mut Option<Known<f64>>,
+    known: &mut Option<Memo<f64>>,
     (text, expr): (&Text, &Expr),
-    context: &mut Context<'_>,
+    context: &mut LoopContext<'_>,
 ) -> Result<f64, Fault> {
     if let Some(known) = known
         && known.holds(context.scope, expr.slots())
@@ -82,19 +82,19 @@ fn bound(
         let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
         placed(text, error.diagnostic(known))
     })?;
-    *known = Some(Known::new(context.scope, value));
+    *known = Some(Memo::new(context.scope, value));
     Ok(value)
 }
 
 impl ForState {
-    pub(crate) fn start(plan: &ForPlan, context: &mut Context<'_>) -> Result<Self, Fault> {
+    pub(crate) fn start(plan: &ForPlan, context: &mut LoopContext<'_>) -> Result<Self, Fault> {
         let mut state = Self {
             value: f64::NAN,
             fraction: 0.0,
             at: 0,
-            cell: Cell::Text("".into()),
+            cell: LoopCell::Text("".into()),
             made: Vec::new(),
-            bounds: Bounds::default(),
+            bounds: LoopBounds::default(),
         };
         state.restart(plan, context)?;
         Ok(state)
@@ -104,7 +104,7 @@ impl ForState {
     pub(crate) fn restart(
         &mut self,
         plan: &ForPlan,
-        context: &mut Context<'_>,
+        context: &mut LoopContext<'_>,
     ) -> Result<(), Fault> {
         self.value = bound(&mut self.bounds.from, (&plan.statement.from, &plan.from), context)?;
         (self.fraction, self.at) = (0.0, 0);
@@ -115,7 +115,7 @@ impl ForState {
     pub(crate) fn advance(
         &mut self,
         plan: &ForPlan,
-        context: &mut Context<'_>,
+        context: &mut LoopContext<'_>,
     ) -> Result<bool, Fault> {
         let before = self.value;
         let by = bound(&mut self.bounds.by, (&plan.statement.by, &plan.by), context)?;
@@ -145,7 +145,7 @@ impl ForState {
     }
 
     /// What its column shows.
-    pub(crate) fn cell(&self) -> &Cell {
+    pub(crate) fn cell(&self) -> &LoopCell {
         &self.cell
     }
 
@@ -154,11 +154,11 @@ impl ForState {
     }
 
     /// Writes the value into its entry and its column.
-    pub(crate) fn write(&mut self, plan: &ForPlan, written: &mut Vec<Written>) {
+    pub(crate) fn write(&mut self, plan: &ForPlan, written: &mut Vec<LoopWrite>) {
         let bits = self.value.to_bits();
         let before = self.made.get(self.at).filter(|made| made.bits == bits).cloned();
         let made = before.unwrap_or_else(|| {
-            let made = Made::of(self.value, plan.is_text);
+            let made = PreparedValue::of(self.value, plan.is_text);
             match self.made.get_mut(self.at) {
                 Some(before) => *before = made.clone(),
                 None if self.at < KEPT => self.made.push(made.clone()),
@@ -167,16 +167,17 @@ impl ForState {
             made
         });
         self.cell = made.cell;
-        written.push(Written { entry: plan.entry, content: made.content });
+        written.push(LoopWrite { entry: plan.entry, content: made.content });
     }
 }
 
-impl Made {
+impl PreparedValue {
     fn of(value: f64, is_text: bool) -> Self {
         let number = if is_text { None } else { number::reread(value) };
         let text = || number::loop_text(value);
-        let cell = if is_text { Cell::Text(text().into()) } else { Cell::of(value) };
-        let content = number.map_or_else(|| Content::Text(text().into()), Content::Number);
+        let cell = if is_text { LoopCell::Text(text().into()) } else { LoopCell::of(value) };
+        let content =
+            number.map_or_else(|| EntryContent::Text(text().into()), EntryContent::Number);
         Self { bits: value.to_bits(), content, cell }
     }
 }

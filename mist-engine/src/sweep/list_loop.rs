@@ -14,20 +14,20 @@ use mist_format::{
     table::ListTable,
 };
 
-use super::{Content, Context, Written};
-use crate::{fault::Fault, quirk::dialect, step::Cell};
+use super::{EntryContent, LoopContext, LoopWrite};
+use crate::{fault::Fault, quirk::dialect, step::LoopCell};
 
 /// A LIST loop as compiled.
 pub(crate) struct ListPlan {
     pub(crate) statement: ListLoop,
     pub(crate) file: Arc<ListTable>,
-    pub(crate) columns: Vec<Column>,
+    pub(crate) columns: Vec<ListColumn>,
     /// Whether a cell reads results of earlier steps.
     pub(crate) fed_back: bool,
 }
 
 /// A column of a LIST file.
-pub(crate) struct Column {
+pub(crate) struct ListColumn {
     /// The entry of VARIABLES that it writes.
     pub(crate) entry: usize,
     /// The name in the file.
@@ -39,7 +39,7 @@ pub(crate) struct Column {
 /// Where a LIST loop stands.
 pub(crate) struct ListState {
     row: usize,
-    cells: Vec<Cell>,
+    cells: Vec<LoopCell>,
 }
 
 impl ListState {
@@ -54,7 +54,7 @@ impl ListState {
         self.row < plan.file.row_count()
     }
 
-    pub(crate) fn cells(&self) -> &[Cell] {
+    pub(crate) fn cells(&self) -> &[LoopCell] {
         &self.cells
     }
 
@@ -66,21 +66,21 @@ impl ListState {
     pub(crate) fn write(
         &mut self,
         plan: &ListPlan,
-        context: &mut Context<'_>,
-        written: &mut Vec<Written>,
+        context: &mut LoopContext<'_>,
+        written: &mut Vec<LoopWrite>,
     ) -> Result<(), Fault> {
         self.cells.clear();
         for (at, column) in plan.columns.iter().enumerate() {
             let raw = plan.file.cell(self.row, at);
             let (text, cell) = if column.is_text {
-                (Arc::from(raw), Cell::Text(raw.into()))
+                (Arc::from(raw), LoopCell::Text(raw.into()))
             } else {
                 let (text, cell) = evaluate(plan, raw, self.row, context)?;
                 (text.into(), cell)
             };
             let number = whole_number(&text).filter(|_| !column.is_text);
-            let content = number.map_or(Content::Text(text), Content::Number);
-            written.push(Written { entry: column.entry, content });
+            let content = number.map_or(EntryContent::Text(text), EntryContent::Number);
+            written.push(LoopWrite { entry: column.entry, content });
             self.cells.push(cell);
         }
         Ok(())
@@ -92,10 +92,10 @@ fn evaluate(
     plan: &ListPlan,
     raw: &str,
     row: usize,
-    context: &mut Context<'_>,
-) -> Result<(String, Cell), Fault> {
+    context: &mut LoopContext<'_>,
+) -> Result<(String, LoopCell), Fault> {
     if let Some(x) = whole_number(raw) {
-        return Ok((Value::from(x).to_text(), Cell::of(x)));
+        return Ok((Value::from(x).to_text(), LoopCell::of(x)));
     }
     let name = plan.statement.file.as_str();
     let wrong = |diagnostic: Diagnostic| {
@@ -110,5 +110,5 @@ fn evaluate(
         let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
         wrong(error.diagnostic(known))
     })?;
-    Ok((value.to_text(), Cell::Expression(Arc::new(expr))))
+    Ok((value.to_text(), LoopCell::Expression(Arc::new(expr))))
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mist_engine::{Control, Failure, MemoryFiles, MemorySink, Options, Summary, compile};
+use mist_engine::{Control, Failure, MemoryFiles, MemorySink, Options, RunSummary, compile};
 use scattering::Mode;
 
 const FACETS: &str = "MODEL = Facet_BRDF_Model
@@ -22,7 +22,7 @@ OUTPUTS: 1 total=H 2 R 3 sum=R+H 4 relative=R.error/R END
 FILES: format = %.12e\\t END
 ";
 
-fn run_in(mode: Mode, program: &str) -> Result<(MemorySink, Summary), Failure> {
+fn run_in(mode: Mode, program: &str) -> Result<(MemorySink, RunSummary), Failure> {
     let options = Options { mode, ..Options::default() };
     let job =
         compile(program, Arc::new(MemoryFiles::default()), &options).map_err(Failure::Program)?;
@@ -31,7 +31,7 @@ fn run_in(mode: Mode, program: &str) -> Result<(MemorySink, Summary), Failure> {
     Ok((sink, summary))
 }
 
-fn run(program: &str) -> (MemorySink, Summary) {
+fn run(program: &str) -> (MemorySink, RunSummary) {
     run_in(Mode::Sound, program).unwrap()
 }
 

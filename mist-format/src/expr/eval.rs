@@ -44,13 +44,13 @@ impl Scope for NoNames {
 pub struct Stack {
     values: Vec<f64>,
     lists: Vec<f64>,
-    frames: Vec<Frame>,
+    frames: Vec<StackFrame>,
     arguments: Vec<f64>,
     pub(super) memo: Memo,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Frame {
+struct StackFrame {
     values: usize,
     lists: usize,
 }
@@ -102,7 +102,7 @@ impl Stack {
                 self.lists.push(right);
             }
             Action::Open => {
-                self.frames.push(Frame { values: self.values.len(), lists: self.lists.len() });
+                self.frames.push(StackFrame { values: self.values.len(), lists: self.lists.len() });
             }
             Action::Group { negative, only_scalar } => {
                 let frame = self.close();
@@ -164,8 +164,8 @@ impl Stack {
         }
     }
 
-    fn close(&mut self) -> Frame {
-        self.frames.pop().unwrap_or(Frame { values: 0, lists: 0 })
+    fn close(&mut self) -> StackFrame {
+        self.frames.pop().unwrap_or(StackFrame { values: 0, lists: 0 })
     }
 
     /// Closes a frame; what it holds becomes the arguments.

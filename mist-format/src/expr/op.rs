@@ -67,7 +67,7 @@ impl Op {
 
 /// One step of the postfix program, and the part of the text it stands for.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Step {
+pub(super) struct Operation {
     pub(super) action: Action,
     pub(super) span: Span,
 }

@@ -7,7 +7,7 @@
 use super::Function;
 use super::eval::{Scope, signed};
 use super::memo::Memo;
-use super::op::{Action, Op, Step};
+use super::op::{Action, Op, Operation};
 use crate::number::whole_number;
 
 /// Numbers below the top that a program may need.
@@ -45,8 +45,9 @@ pub(super) enum Code {
 }
 
 /// The short program of `steps` with these files and slots of names, if they have one.
-pub(super) fn shorten(steps: &[Step], files: &[String], slots: &[u32]) -> Option<Vec<Code>> {
-    let mut writer = Writer { code: Vec::new(), frames: vec![Vec::new()], depth: 0, files, slots };
+pub(super) fn shorten(steps: &[Operation], files: &[String], slots: &[u32]) -> Option<Vec<Code>> {
+    let mut writer =
+        ScalarCompiler { code: Vec::new(), frames: vec![Vec::new()], depth: 0, files, slots };
     for step in steps {
         writer.step(step.action)?;
     }
@@ -61,7 +62,7 @@ enum Operand {
     Listed,
 }
 
-struct Writer<'a> {
+struct ScalarCompiler<'a> {
     code: Vec<Code>,
     /// What each open frame holds, in the order it was pushed.
     frames: Vec<Vec<Operand>>,
@@ -71,7 +72,7 @@ struct Writer<'a> {
     slots: &'a [u32],
 }
 
-impl Writer<'_> {
+impl ScalarCompiler<'_> {
     fn step(&mut self, action: Action) -> Option<()> {
         match action {
             Action::Number(x) => self.push(Code::Number(x)),

@@ -5,7 +5,7 @@
 //! skipped behind an operand, one more behind a bare name, and one before an operator; what
 //! comes then is no operator any more, but the next operand.
 
-use super::op::{Action, Op, Step};
+use super::op::{Action, Op, Operation};
 use super::{Expr, ExprError, ExprErrorKind, Function, scalar};
 use crate::dialect::{Dialect, Quirk};
 use crate::number::{is_blank, number_prefix};
@@ -49,7 +49,7 @@ pub(super) fn compile(text: &str, rules: Rules) -> Result<Expr, ExprError> {
 }
 
 /// An error between two places of the scanned bytes.
-type Failure = (usize, usize, ExprErrorKind);
+type ScanError = (usize, usize, ExprErrorKind);
 
 /// What the scan looks for next.
 enum Next {
@@ -59,7 +59,7 @@ enum Next {
 }
 
 /// An open parenthesis, or the whole expression.
-struct Frame {
+struct OpenFrame {
     kind: FrameKind,
     negative: bool,
     /// Where the operand begins.
@@ -76,7 +76,7 @@ struct Frame {
     binding: Option<Quirk>,
 }
 
-impl Frame {
+impl OpenFrame {
     fn new(kind: FrameKind, negative: bool, start: usize, parenthesis: usize) -> Self {
         let (pending, vectors) = (Vec::new(), Vec::new());
         Self { kind, negative, start, parenthesis, pending, values: 0, vectors, binding: None }
@@ -100,13 +100,13 @@ struct Scan<'t> {
     at: usize,
     tokens: usize,
     /// The whole expression.
-    top: Frame,
+    top: OpenFrame,
     /// Open parentheses.
-    open: Vec<Frame>,
-    steps: Vec<Step>,
-    names: Names,
-    files: Names,
-    calls: Names,
+    open: Vec<OpenFrame>,
+    steps: Vec<Operation>,
+    names: Interner,
+    files: Interner,
+    calls: Interner,
 }
 
 impl<'t> Scan<'t> {
@@ -124,16 +124,16 @@ impl<'t> Scan<'t> {
             rules,
             at: 0,
             tokens: 0,
-            top: Frame::new(FrameKind::Group, false, 0, 0),
+            top: OpenFrame::new(FrameKind::Group, false, 0, 0),
             open: Vec::new(),
             steps: Vec::new(),
-            names: Names::default(),
-            files: Names::default(),
-            calls: Names::default(),
+            names: Interner::default(),
+            files: Interner::default(),
+            calls: Interner::default(),
         }
     }
 
-    fn run(&mut self) -> Result<(), Failure> {
+    fn run(&mut self) -> Result<(), ScanError> {
         let mut next = Next::Operand;
         loop {
             next = match next {
@@ -146,7 +146,7 @@ impl<'t> Scan<'t> {
     }
 
     /// Reads an operand, or opens a parenthesis whose inside follows.
-    fn operand(&mut self) -> Result<Next, Failure> {
+    fn operand(&mut self) -> Result<Next, ScanError> {
         self.skip_blank();
         let start = self.at;
         let negative = self.sign(start)?;
@@ -178,7 +178,7 @@ impl<'t> Scan<'t> {
 
     /// Takes a sign directly before an operand. A minus that begins a frame is `0 -`; says
     /// whether one elsewhere belongs to the operand.
-    fn sign(&mut self, start: usize) -> Result<bool, Failure> {
+    fn sign(&mut self, start: usize) -> Result<bool, ScanError> {
         let sign = self.peek().filter(|byte| matches!(byte, b'+' | b'-'));
         self.at += usize::from(sign.is_some());
         let minus = sign == Some(b'-');
@@ -191,7 +191,7 @@ impl<'t> Scan<'t> {
     }
 
     /// `  -2^2`: the minus belongs to the number although it begins the expression.
-    fn check_power_of_signed(&self, minus: usize) -> Result<(), Failure> {
+    fn check_power_of_signed(&self, minus: usize) -> Result<(), ScanError> {
         let behind = self.bytes[self.at..].iter().find(|byte| !is_blank(**byte));
         let odd = self.frame().values == 1 && behind == Some(&b'^');
         if odd && self.rules.refuses(Quirk::SignBindsToNumber) {
@@ -201,7 +201,7 @@ impl<'t> Scan<'t> {
     }
 
     /// The failure where an operand should be; `from` is where a number was looked for.
-    fn no_operand(&self, from: usize, unfinished: bool) -> Failure {
+    fn no_operand(&self, from: usize, unfinished: bool) -> ScanError {
         let text = || String::from_utf8_lossy(&self.bytes[from..self.at]).into_owned();
         if unfinished {
             (from, self.at, ExprErrorKind::InvalidNumber { text: text() })
@@ -215,7 +215,7 @@ impl<'t> Scan<'t> {
     }
 
     /// A variable, a function with its arguments or a file with its arguments.
-    fn name(&mut self, negative: bool, start: usize) -> Result<Next, Failure> {
+    fn name(&mut self, negative: bool, start: usize) -> Result<Next, ScanError> {
         let from = self.at;
         while self.peek().is_some_and(continues_name) {
             self.at += 1;
@@ -248,7 +248,7 @@ impl<'t> Scan<'t> {
     }
 
     /// Reads an operator behind an operand that does not end its frame.
-    fn operator(&mut self) -> Result<Next, Failure> {
+    fn operator(&mut self) -> Result<Next, ScanError> {
         let before = self.at;
         self.skip_blank();
         self.skip_blank();
@@ -263,7 +263,7 @@ impl<'t> Scan<'t> {
     }
 
     /// There is no operator where one should be: the end, a lost operator, or an operand.
-    fn check_missing_operator(&self, before: usize) -> Result<(), Failure> {
+    fn check_missing_operator(&self, before: usize) -> Result<(), ScanError> {
         let blanks = self.bytes[self.at..].iter().take_while(|byte| is_blank(**byte)).count();
         let next = self.at + blanks;
         let found = self.bytes.get(next).copied();
@@ -285,16 +285,16 @@ impl<'t> Scan<'t> {
         Ok(())
     }
 
-    fn open(&mut self, kind: FrameKind, negative: bool, start: usize) -> Result<Next, Failure> {
+    fn open(&mut self, kind: FrameKind, negative: bool, start: usize) -> Result<Next, ScanError> {
         let parenthesis = self.at;
         self.at += 1;
         self.add_step(Action::Open, start)?;
-        self.open.push(Frame::new(kind, negative, start, parenthesis));
+        self.open.push(OpenFrame::new(kind, negative, start, parenthesis));
         Ok(Next::Operand)
     }
 
     /// Ends the innermost frame; its value is an operand of the one around it.
-    fn close(&mut self) -> Result<Next, Failure> {
+    fn close(&mut self) -> Result<Next, ScanError> {
         self.reduce_above(0)?;
         self.bind_vectors();
         let Some(frame) = self.open.pop() else { return Ok(Next::Nothing) };
@@ -331,7 +331,7 @@ impl<'t> Scan<'t> {
     }
 
     /// Adds a step that pushes an operand which began at `start`.
-    fn push(&mut self, action: Action, start: usize) -> Result<(), Failure> {
+    fn push(&mut self, action: Action, start: usize) -> Result<(), ScanError> {
         if matches!(action, Action::Variable { .. } | Action::Group { .. }) {
             let step = self.steps.len();
             self.frame_mut().vectors.push(step);
@@ -340,7 +340,7 @@ impl<'t> Scan<'t> {
         self.add_step(action, start)
     }
 
-    fn push_operator(&mut self, op: Op, at: usize) -> Result<(), Failure> {
+    fn push_operator(&mut self, op: Op, at: usize) -> Result<(), ScanError> {
         self.reduce_above(op.power())?;
         let frame = self.frame_mut();
         frame.pending.push((op, at));
@@ -353,7 +353,7 @@ impl<'t> Scan<'t> {
     }
 
     /// Computes the waiting operators that bind at least as tightly as `power`.
-    fn reduce_above(&mut self, power: u8) -> Result<(), Failure> {
+    fn reduce_above(&mut self, power: u8) -> Result<(), ScanError> {
         while let Some((op, at)) = self.frame_mut().pending.pop_if(|top| top.0.power() >= power) {
             self.frame_mut().values -= 1;
             let action = if op == Op::Comma { Action::Comma } else { Action::Binary(op) };
@@ -365,25 +365,25 @@ impl<'t> Scan<'t> {
     }
 
     /// Adds a step for the bytes from `start` to here.
-    fn add_step(&mut self, action: Action, start: usize) -> Result<(), Failure> {
+    fn add_step(&mut self, action: Action, start: usize) -> Result<(), ScanError> {
         self.tokens += 1;
         if self.tokens > MAX_TOKENS {
             return Err((start, self.at, ExprErrorKind::TooLong));
         }
         let span = self.span(start, self.at);
-        self.steps.push(Step { action, span });
+        self.steps.push(Operation { action, span });
         Ok(())
     }
 
-    fn refused(&self, quirk: Quirk, start: usize, end: usize) -> Failure {
+    fn refused(&self, quirk: Quirk, start: usize, end: usize) -> ScanError {
         (start, end, ExprErrorKind::Refused { quirk })
     }
 
-    fn frame(&self) -> &Frame {
+    fn frame(&self) -> &OpenFrame {
         self.open.last().unwrap_or(&self.top)
     }
 
-    fn frame_mut(&mut self) -> &mut Frame {
+    fn frame_mut(&mut self) -> &mut OpenFrame {
         self.open.last_mut().unwrap_or(&mut self.top)
     }
 
@@ -444,12 +444,12 @@ fn begins_operand(byte: u8) -> bool {
 
 /// Distinct names in the order of their first use.
 #[derive(Default)]
-struct Names {
+struct Interner {
     list: Vec<String>,
     places: HashMap<String, u32>,
 }
 
-impl Names {
+impl Interner {
     fn intern(&mut self, name: &str) -> u32 {
         if let Some(place) = self.places.get(name) {
             return *place;

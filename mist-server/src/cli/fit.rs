@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 
 use mist_engine::{
     Control,
-    fit::{self, Fit, FitError, Measured, Settings},
+    fit::{self, Fit, FitError, FitSettings, MeasuredTable},
 };
 use mist_format::number::general;
 
@@ -75,9 +75,9 @@ pub(super) fn fit(args: &Args) -> Result<(), Stop> {
     let source = Source::read(&args.vary.program)?;
     let program = args.vary.open(&source)?;
     let table = Source::read(&args.measured)?;
-    let measured = Measured::parse(&table.text, program.titles(), program.headers())
+    let measured = MeasuredTable::parse(&table.text, program.titles(), program.headers())
         .map_err(|error| Stop::Refused(format!("{}: {error}", table.name())))?;
-    let settings = Settings {
+    let settings = FitSettings {
         start: args.start.iter().cloned().collect::<BTreeMap<_, _>>(),
         bounds: args.bounds.iter().cloned().collect(),
         step: args.step,
@@ -99,7 +99,9 @@ fn stop(error: &FitError, source: &Source, args: &Args) -> Stop {
         return Stop::Said(Fate::Refused);
     }
     match error {
-        FitError::Measured(error) => Stop::Refused(format!("{}: {error}", args.measured.display())),
+        FitError::MeasuredTable(error) => {
+            Stop::Refused(format!("{}: {error}", args.measured.display()))
+        }
         FitError::Setting { .. } | FitError::TooFewData { .. } => Stop::Refused(error.to_string()),
         other => Stop::Failed(other.to_string()),
     }

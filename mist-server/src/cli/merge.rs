@@ -8,7 +8,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{Job, Stream};
+use mist_engine::{Job, OutputStream};
 
 use super::{Stop, print};
 use crate::{
@@ -42,10 +42,15 @@ pub(super) fn merge(args: &Args) -> Result<(), Stop> {
     let table = args.output.clone().unwrap_or_else(|| PathBuf::from(&label.results.name));
     let folder = table.parent().unwrap_or(Path::new("")).to_owned();
     let beside = |head: &Head| folder.join(&head.name);
-    let mut texts = vec![Text::begin(Stream::Results, "results", &table, &label.results)?];
-    texts.push(Text::begin(Stream::Listing, "listing", &beside(&label.listing), &label.listing)?);
+    let mut texts = vec![Text::begin(OutputStream::Results, "results", &table, &label.results)?];
+    texts.push(Text::begin(
+        OutputStream::Listing,
+        "listing",
+        &beside(&label.listing),
+        &label.listing,
+    )?);
     if let Some(head) = &label.samples {
-        texts.push(Text::begin(Stream::Samples, "samples", &beside(head), head)?);
+        texts.push(Text::begin(OutputStream::Samples, "samples", &beside(head), head)?);
     }
     let mut seconds = 0.0;
     for shard in shards.into_values() {
@@ -151,13 +156,18 @@ impl Opened {
 
 /// One of the texts of the run on its way to disk.
 struct Text {
-    stream: Stream,
+    stream: OutputStream,
     title: &'static str,
     file: WholeFile,
 }
 
 impl Text {
-    fn begin(stream: Stream, title: &'static str, path: &Path, head: &Head) -> Result<Self, Stop> {
+    fn begin(
+        stream: OutputStream,
+        title: &'static str,
+        path: &Path,
+        head: &Head,
+    ) -> Result<Self, Stop> {
         let file = WholeFile::create(path).map_err(|error| unwritable(path, &error))?;
         let mut text = Self { stream, title, file };
         text.add(&head.head)?;

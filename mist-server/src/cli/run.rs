@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{Control, Failure, Job, Options, Summary, compile};
+use mist_engine::{Control, Failure, Job, Options, RunSummary, compile};
 use mist_format::program::ColorKey;
 use rise_bridge::write::Style;
 use scattering::Mode;
@@ -196,7 +196,11 @@ enum RunError {
 type Written = (&'static str, PathBuf);
 
 /// Runs `job` and writes its files below `out`.
-fn run_job(job: &Job, out: &Path, control: &Control) -> Result<(Summary, Vec<Written>), RunError> {
+fn run_job(
+    job: &Job,
+    out: &Path,
+    control: &Control,
+) -> Result<(RunSummary, Vec<Written>), RunError> {
     let mut sink = DiskSink::create(job, out).map_err(RunError::Write)?;
     let summary = job.run(&mut sink, control)?;
     let mut files = sink.finish().map_err(RunError::Write)?;
@@ -219,7 +223,7 @@ fn run_job(job: &Job, out: &Path, control: &Control) -> Result<(Summary, Vec<Wri
 }
 
 /// What a finished run says.
-fn describe(job: &str, summary: &Summary, files: &[Written]) -> String {
+fn describe(job: &str, summary: &RunSummary, files: &[Written]) -> String {
     let mut text = format!(
         "{job}: {} step{}, {:.3e} evaluations, {:.2} s\n",
         summary.steps,
@@ -235,7 +239,7 @@ fn describe(job: &str, summary: &Summary, files: &[Written]) -> String {
     text
 }
 
-fn note(file: &str, summary: &Summary) {
+fn note(file: &str, summary: &RunSummary) {
     for notice in &summary.met {
         report::say(&format!("note: {file}: {notice}"));
     }

@@ -2,7 +2,7 @@
 
 use mist_engine::{
     Control, Failure,
-    tolerance::{self, Tolerance, ToleranceError},
+    tolerance::{self, ColourTolerance, ToleranceError},
 };
 use mist_format::number::general;
 
@@ -49,7 +49,7 @@ pub(super) fn tolerance(args: &Args) -> Result<(), Stop> {
 }
 
 /// The numbers for people: one line per variable, then its most and least sensitive rows.
-fn describe(found: &Tolerance) -> String {
+fn describe(found: &ColourTolerance) -> String {
     let width = found.parameters.iter().map(|p| p.name.chars().count()).max().unwrap_or(0);
     let mut text = String::new();
     for parameter in &found.parameters {
@@ -66,7 +66,9 @@ fn describe(found: &Tolerance) -> String {
             None => "; no colour moves".to_owned(),
         };
         text += &format!("   ({low} to {high})\n");
-        let larger = |a: &&tolerance::Move, b: &&tolerance::Move| a.delta_e.total_cmp(&b.delta_e);
+        let larger = |a: &&tolerance::ColourShift, b: &&tolerance::ColourShift| {
+            a.delta_e.total_cmp(&b.delta_e)
+        };
         if let Some(row) = parameter.rows.iter().max_by(larger) {
             let [l, a, b] = row.lab.map(|change| general(change, 4));
             let leading = found.leading.iter().zip(&row.leading);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use mist_engine::{
     Control, Options,
-    varied::{Varied, VariedError},
+    function::{FunctionError, ProgramFunction},
 };
 use mist_format::Diagnostic;
 
@@ -43,13 +43,13 @@ pub(super) struct Vary {
 
 impl Vary {
     /// The program of `source` as a function of its variables.
-    pub(super) fn open(&self, source: &Source) -> Result<Varied, Stop> {
+    pub(super) fn open(&self, source: &Source) -> Result<ProgramFunction, Stop> {
         let files = DiskFiles::beside(&self.program).shared();
         let mode = mode(self.compat);
         let options = Options { mode, job: source.stem(), seed: self.seed, ..Options::default() };
         let names: Vec<String> = self.vary.iter().map(|name| name.trim().to_owned()).collect();
-        Varied::new(&source.text, files, options, &names).map_err(|error| match error {
-            VariedError::Program(diagnostics) => {
+        ProgramFunction::new(&source.text, files, options, &names).map_err(|error| match error {
+            FunctionError::Program(diagnostics) => {
                 tell(&diagnostics, source);
                 Stop::Said(Fate::Refused)
             }

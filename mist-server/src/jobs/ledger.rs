@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mist_engine::{Evaluated, Finished, Journal};
+use mist_engine::{Evaluated, Journal, StepResult};
 
 use crate::store::Store;
 
@@ -61,7 +61,7 @@ impl<'a> Ledger<'a> {
 }
 
 impl Journal for Ledger<'_> {
-    fn recall(&mut self, step: u64) -> io::Result<Option<Finished>> {
+    fn recall(&mut self, step: u64) -> io::Result<Option<StepResult>> {
         if !self.recalling {
             return Ok(None);
         }
@@ -73,7 +73,7 @@ impl Journal for Ledger<'_> {
         Ok(found)
     }
 
-    fn keep(&mut self, first: u64, steps: &[Finished]) -> io::Result<()> {
+    fn keep(&mut self, first: u64, steps: &[StepResult]) -> io::Result<()> {
         if self.pending.is_empty() {
             self.first = first;
         }
@@ -90,14 +90,14 @@ impl Journal for Ledger<'_> {
 }
 
 /// The number of integrals, their values and errors, the samples.
-fn encode(step: &Finished) -> Vec<u8> {
+fn encode(step: &StepResult) -> Vec<u8> {
     let count = step.values.len() as u64;
     let pairs = step.values.iter().flat_map(|integral| [integral.value, integral.error]);
     let values = pairs.flat_map(f64::to_le_bytes);
     count.to_le_bytes().into_iter().chain(values).chain(step.samples.bytes()).collect()
 }
 
-fn decode(bytes: &[u8]) -> Option<Finished> {
+fn decode(bytes: &[u8]) -> Option<StepResult> {
     let (count, rest) = bytes.split_at_checked(NUMBER)?;
     let count = usize::try_from(u64::from_le_bytes(count.try_into().ok()?)).ok()?;
     let (values, samples) = rest.split_at_checked(count.checked_mul(2 * NUMBER)?)?;
@@ -107,7 +107,7 @@ fn decode(bytes: &[u8]) -> Option<Finished> {
         Some(Evaluated { value: number(value)?, error: number(error)? })
     };
     let values: Option<_> = values.chunks(2 * NUMBER).map(integral).collect();
-    Some(Finished { values: values?, samples: String::from_utf8(samples.to_vec()).ok()? })
+    Some(StepResult { values: values?, samples: String::from_utf8(samples.to_vec()).ok()? })
 }
 
 #[cfg(test)]
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_step_comes_back_to_the_bit() {
-        let step = Finished {
+        let step = StepResult {
             values: vec![
                 Evaluated { value: 0.1 + 0.2, error: -0.0 },
                 Evaluated { value: f64::INFINITY, error: f64::from_bits(1) },
@@ -125,7 +125,7 @@ mod tests {
             samples: "0\t1\n".into(),
         };
         let back = decode(&encode(&step)).unwrap();
-        let bits = |step: &Finished| {
+        let bits = |step: &StepResult| {
             let pairs = step.values.iter().map(|x| (x.value.to_bits(), x.error.to_bits()));
             pairs.collect::<Vec<_>>()
         };

@@ -6,7 +6,7 @@ use std::{
 };
 
 use axum::http::StatusCode;
-use mist_engine::{Control, Failure, Sink, Stream, Summary, compile};
+use mist_engine::{Control, Failure, OutputStream, RunSummary, Sink, compile};
 use rise_bridge::write::Style;
 
 use super::{Job, MeasuredSink, Office, State, ledger::Ledger};
@@ -59,7 +59,7 @@ fn program(office: &Office, job: &Job) -> io::Result<ProgramBody> {
 struct Live<'a>(&'a Job);
 
 impl Sink for Live<'_> {
-    fn write(&mut self, stream: Stream, text: &str) -> io::Result<()> {
+    fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()> {
         self.0.live.lock().unwrap_or_else(PoisonError::into_inner).write(stream, text)
     }
 }
@@ -100,7 +100,7 @@ fn attempt(office: &Office, job: &Job, body: &ProgramBody) -> Result<(), Failure
 }
 
 /// The texts of a finished run by their names.
-fn texts(job: &Job, summary: &Summary) -> Result<Vec<(&'static str, String)>, Failure> {
+fn texts(job: &Job, summary: &RunSummary) -> Result<Vec<(&'static str, String)>, Failure> {
     let live = job.live.lock().unwrap_or_else(PoisonError::into_inner).clone();
     let mut texts = vec![("results", live.results), ("listing", live.listing)];
     if !live.samples.is_empty() {

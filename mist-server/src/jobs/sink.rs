@@ -2,7 +2,7 @@
 
 use std::io;
 
-use mist_engine::{Sink, Stream};
+use mist_engine::{OutputStream, Sink};
 
 use crate::http::{Limit, OutputLimit};
 
@@ -26,7 +26,7 @@ impl MeasuredSink {
 }
 
 impl Sink for MeasuredSink {
-    fn write(&mut self, stream: Stream, text: &str) -> io::Result<()> {
+    fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()> {
         let bytes = self.results.len() + self.listing.len() + self.samples.len() + text.len();
         if bytes > self.most {
             let message = format!("the results are longer than {} bytes", self.most);
@@ -34,9 +34,9 @@ impl Sink for MeasuredSink {
             return Err(io::Error::other(OutputLimit(limit)));
         }
         let kept = match stream {
-            Stream::Results => &mut self.results,
-            Stream::Listing => &mut self.listing,
-            Stream::Samples => &mut self.samples,
+            OutputStream::Results => &mut self.results,
+            OutputStream::Listing => &mut self.listing,
+            OutputStream::Samples => &mut self.samples,
         };
         kept.push_str(text);
         Ok(())

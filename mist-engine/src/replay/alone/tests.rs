@@ -6,7 +6,9 @@ use rayon::ThreadPoolBuilder;
 use scattering::Mode;
 
 use super::Alone;
-use crate::{Control, Job, MemoryFiles, MemorySink, Options, Stream, compile, replay::Replay};
+use crate::{
+    Control, Job, MemoryFiles, MemorySink, Options, OutputStream, compile, replay::Replay,
+};
 
 /// A program of directions with these VARIABLES, loops and outputs.
 fn program(variables: &str, loops: &str, outputs: &str) -> String {
@@ -107,7 +109,7 @@ fn parts_that_begin_in_the_middle_are_parts_of_the_whole() {
     for (source, _) in programs() {
         let job = job(&source);
         let steps = job.count_steps(&Control::default()).unwrap();
-        let mut results = job.head(Stream::Results);
+        let mut results = job.head(OutputStream::Results);
         for part in [0..1, 1..2, 2..97, 97..steps] {
             let mut sink = MemorySink::default();
             job.run_part(part, &mut sink, &Control::default()).unwrap();

@@ -2,7 +2,7 @@
 
 use std::{fmt::Write as _, path::Path};
 
-use mist_engine::{Control, Failure, Job, Options, Summary};
+use mist_engine::{Control, Failure, Job, Options, RunSummary};
 
 use super::RunError;
 use crate::shard::{Journal, JournalError, Label, Shard};
@@ -14,7 +14,7 @@ pub(super) fn run(
     shard: Shard,
     out: &Path,
     control: &Control,
-) -> Result<(Summary, String), RunError> {
+) -> Result<(RunSummary, String), RunError> {
     if job.runs_in_order() {
         return Err(RunError::Refused(
             "this program cannot be split: its variables, loops or apertures read integrals or \
@@ -35,7 +35,7 @@ pub(super) fn run(
     })?;
     let part = shard.steps(steps);
     let before = journal.next - part.start;
-    let mut summary = Summary::default();
+    let mut summary = RunSummary::default();
     if !journal.complete {
         summary = job.run_part(journal.next..part.end, &mut journal, control).map_err(failed)?;
         journal.end(summary.seconds).map_err(|error| write(&error))?;

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{Job, Sink, Stream};
+use mist_engine::{Job, OutputStream, Sink};
 
 use crate::disk::WholeFile;
 
@@ -49,11 +49,11 @@ impl DiskSink {
 }
 
 impl Sink for DiskSink {
-    fn write(&mut self, stream: Stream, text: &str) -> io::Result<()> {
+    fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()> {
         let file = match stream {
-            Stream::Results => &mut self.results,
-            Stream::Listing => &mut self.listing,
-            Stream::Samples => match &mut self.samples {
+            OutputStream::Results => &mut self.results,
+            OutputStream::Listing => &mut self.listing,
+            OutputStream::Samples => match &mut self.samples {
                 Some(samples) => samples,
                 None => return Ok(()),
             },

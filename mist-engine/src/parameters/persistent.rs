@@ -10,7 +10,7 @@ use super::Fingerprint;
 
 /// A value of which clones are cheap, and its digest once somebody wanted it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Shared<T>(Arc<Inner<T>>);
+pub(crate) struct Persistent<T>(Arc<Inner<T>>);
 
 #[derive(Clone, Debug, Default)]
 struct Inner<T> {
@@ -18,7 +18,7 @@ struct Inner<T> {
     digest: OnceLock<Fingerprint>,
 }
 
-impl<T: Clone + Hash> Shared<T> {
+impl<T: Clone + Hash> Persistent<T> {
     pub(crate) fn new(value: T) -> Self {
         Self(Arc::new(Inner { value, digest: OnceLock::new() }))
     }
@@ -35,7 +35,7 @@ impl<T: Clone + Hash> Shared<T> {
     }
 }
 
-impl<T> Deref for Shared<T> {
+impl<T> Deref for Persistent<T> {
     type Target = T;
 
     fn deref(&self) -> &T {
@@ -43,7 +43,7 @@ impl<T> Deref for Shared<T> {
     }
 }
 
-impl<T: Clone + Hash> Hash for Shared<T> {
+impl<T: Clone + Hash> Hash for Persistent<T> {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.digest().hash(state);
     }
@@ -55,7 +55,7 @@ mod tests {
 
     #[test]
     fn a_changed_value_has_another_digest_and_leaves_its_clones_alone() {
-        let first = Shared::new("a".to_owned());
+        let first = Persistent::new("a".to_owned());
         let mut second = first.clone();
         assert_eq!(first.digest(), second.digest());
         second.edit().push('b');

@@ -1,6 +1,6 @@
 //! A program as a function of some of its variables.
 //!
-//! [`Varied::run`] gives the rows and the colours of the program with other values for the named
+//! [`ProgramFunction::run`] gives the rows and the colours of the program with other values for the named
 //! variables; everything else, apertures and loops included, stays what the program says.
 
 use std::{io, sync::Arc};
@@ -8,11 +8,12 @@ use std::{io, sync::Arc};
 use mist_format::{Diagnostic, program::VariableKind, suggestion::did_you_mean};
 
 use crate::{
-    Control, Failure, Files, Job, Line, Options, Sink, Stream, colour::ColourTable, compile,
+    Control, Failure, Files, Job, Options, OutputStream, Sink, TableLine, colour::ColourTable,
+    compile,
 };
 
 /// A program and the variables that change.
-pub struct Varied {
+pub struct ProgramFunction {
     source: String,
     files: Arc<dyn Files + Send + Sync>,
     options: Options,
@@ -24,16 +25,16 @@ pub struct Varied {
 
 /// One run of a program.
 #[derive(Debug, Default)]
-pub struct Ran {
+pub struct FunctionValues {
     /// The lines of the results.
-    pub rows: Vec<Row>,
+    pub rows: Vec<OutputRow>,
     /// The colours, if the program has a section COLOR.
     pub colour: Option<ColourTable>,
 }
 
 /// A line of the results, unrounded.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Row {
+pub struct OutputRow {
     /// What the columns of the loops show.
     pub loops: Vec<String>,
     /// The outputs.
@@ -42,7 +43,7 @@ pub struct Row {
 
 /// Why a variable cannot be varied.
 #[derive(Debug, thiserror::Error)]
-pub enum VariedError {
+pub enum FunctionError {
     /// No variables were named.
     #[error("no variable is named that should vary")]
     Nothing,
@@ -72,7 +73,7 @@ fn suggestion(help: &Option<String>) -> String {
     help.as_ref().map_or_else(String::new, |help| format!("; {help}"))
 }
 
-impl Varied {
+impl ProgramFunction {
     /// The program `source` as a function of the variables `names`. A parameter of the model is
     /// named with or without its `#`.
     ///
@@ -84,17 +85,17 @@ impl Varied {
         files: Arc<dyn Files + Send + Sync>,
         options: Options,
         names: &[String],
-    ) -> Result<Self, VariedError> {
-        let job = compile(source, files.clone(), &options).map_err(VariedError::Program)?;
+    ) -> Result<Self, FunctionError> {
+        let job = compile(source, files.clone(), &options).map_err(FunctionError::Program)?;
         if names.is_empty() {
-            return Err(VariedError::Nothing);
+            return Err(FunctionError::Nothing);
         }
         let mut found: Vec<String> = Vec::new();
         let mut start = Vec::new();
         for name in names {
             let (name, value) = job.variable(name)?;
             if found.contains(&name) {
-                return Err(VariedError::Twice(name));
+                return Err(FunctionError::Twice(name));
             }
             found.push(name);
             start.push(value);
@@ -130,36 +131,36 @@ impl Varied {
     /// # Errors
     ///
     /// As [`Job::run`]; a value that the model cannot take is one of them.
-    pub fn run(&self, values: &[f64], control: &Control) -> Result<Ran, Failure> {
+    pub fn run(&self, values: &[f64], control: &Control) -> Result<FunctionValues, Failure> {
         let named = self.names.iter().cloned().zip(values.iter().copied());
         let options = Options { values: named.collect(), ..self.options.clone() };
         let job = compile(&self.source, self.files.clone(), &options).map_err(Failure::Program)?;
-        let mut ran = Ran::default();
+        let mut ran = FunctionValues::default();
         let once = Control { cancel: control.cancel.clone(), progress: None };
         let colour = job.run(&mut ran, &once)?.colour;
-        Ok(Ran { colour, ..ran })
+        Ok(FunctionValues { colour, ..ran })
     }
 }
 
-impl Sink for Ran {
-    fn write(&mut self, _: Stream, _: &str) -> io::Result<()> {
+impl Sink for FunctionValues {
+    fn write(&mut self, _: OutputStream, _: &str) -> io::Result<()> {
         Ok(())
     }
 
-    fn row(&mut self, line: &Line) -> io::Result<()> {
+    fn row(&mut self, line: &TableLine) -> io::Result<()> {
         let loops = line.loops().map(str::to_owned).collect();
-        self.rows.push(Row { loops, outputs: line.outputs().to_vec() });
+        self.rows.push(OutputRow { loops, outputs: line.outputs().to_vec() });
         Ok(())
     }
 }
 
 impl Job {
     /// The variable that `name` means, as the program writes it, and its value.
-    fn variable(&self, name: &str) -> Result<(String, f64), VariedError> {
-        let written = |entry: &crate::job::Entry| {
+    fn variable(&self, name: &str) -> Result<(String, f64), FunctionError> {
+        let written = |entry: &crate::job::VariableEntry| {
             self.program.variables[entry.variable].name.as_str().to_owned()
         };
-        let means = |entry: &crate::job::Entry| {
+        let means = |entry: &crate::job::VariableEntry| {
             let written = written(entry);
             written == name || written.strip_prefix('#') == Some(name)
         };
@@ -167,20 +168,20 @@ impl Job {
         let Some((at, entry)) = all.next() else {
             let names: Vec<String> = self.entries.iter().map(written).collect();
             let help = did_you_mean(name, names.iter().map(String::as_str));
-            return Err(VariedError::Unknown { name: name.to_owned(), help });
+            return Err(FunctionError::Unknown { name: name.to_owned(), help });
         };
         let name = written(entry);
         if all.next().is_some() {
-            return Err(VariedError::Twice(name));
+            return Err(FunctionError::Twice(name));
         }
         if self.loops.iter().any(|each| each.entries().contains(&at)) {
-            return Err(VariedError::Looped(name));
+            return Err(FunctionError::Looped(name));
         }
         let is_text = self.program.variables[entry.variable].kind == VariableKind::Literal;
         let value = self.initial.iter().find(|(slot, _)| Some(*slot) == entry.slot);
         match value.map(|(_, value)| value.as_slice()) {
             Some([value]) if !is_text => Ok((name, *value)),
-            _ => Err(VariedError::NoNumber(name)),
+            _ => Err(FunctionError::NoNumber(name)),
         }
     }
 }
@@ -204,9 +205,9 @@ mod tests {
         FILES: END
     ";
 
-    fn varied(names: &[&str]) -> Result<Varied, VariedError> {
+    fn varied(names: &[&str]) -> Result<ProgramFunction, FunctionError> {
         let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-        Varied::new(PROGRAM, Arc::new(MemoryFiles::default()), Options::default(), &names)
+        ProgramFunction::new(PROGRAM, Arc::new(MemoryFiles::default()), Options::default(), &names)
     }
 
     #[test]
@@ -220,11 +221,11 @@ mod tests {
 
     #[test]
     fn variables_that_cannot_vary_are_told_apart() {
-        assert!(matches!(varied(&["roh"]), Err(VariedError::Unknown { help: Some(_), .. })));
-        assert!(matches!(varied(&["x"]), Err(VariedError::Looped(_))));
-        assert!(matches!(varied(&["incidentpol"]), Err(VariedError::NoNumber(_))));
-        assert!(matches!(varied(&["$reflectance"]), Err(VariedError::NoNumber(_))));
-        assert!(matches!(varied(&["rho", "rho"]), Err(VariedError::Twice(_))));
-        assert!(matches!(varied(&[]), Err(VariedError::Nothing)));
+        assert!(matches!(varied(&["roh"]), Err(FunctionError::Unknown { help: Some(_), .. })));
+        assert!(matches!(varied(&["x"]), Err(FunctionError::Looped(_))));
+        assert!(matches!(varied(&["incidentpol"]), Err(FunctionError::NoNumber(_))));
+        assert!(matches!(varied(&["$reflectance"]), Err(FunctionError::NoNumber(_))));
+        assert!(matches!(varied(&["rho", "rho"]), Err(FunctionError::Twice(_))));
+        assert!(matches!(varied(&[]), Err(FunctionError::Nothing)));
     }
 }

@@ -16,14 +16,14 @@ use scattering::{
 };
 
 use super::{
-    Context, SetError, films::FilmsState, formula::Formula, index::IndexState, object::Object,
-    shared::Shared, table::TableState,
+    ParameterContext, SetError, films::FilmsState, formula::FormulaState, index::IndexState,
+    object::ObjectState, persistent::Persistent, table::TableState,
 };
 use crate::quirk::Quirk;
 
 /// The state of a parameter.
 #[derive(Clone, Debug)]
-pub(crate) enum Slot {
+pub(crate) enum ParameterState {
     Number(f64),
     Integer(i32),
     /// Text for the class itself.
@@ -34,14 +34,14 @@ pub(crate) enum Slot {
         text: Arc<str>,
     },
     /// A function of x.
-    Formula(Arc<Formula>),
-    Index(Shared<IndexState>),
-    Table(Shared<TableState>),
-    Films(Shared<FilmsState>),
-    Member(Shared<Object>),
+    Formula(Arc<FormulaState>),
+    Index(Persistent<IndexState>),
+    Table(Persistent<TableState>),
+    Films(Persistent<FilmsState>),
+    Member(Persistent<ObjectState>),
 }
 
-impl Hash for Slot {
+impl Hash for ParameterState {
     fn hash<H: Hasher>(&self, state: &mut H) {
         discriminant(self).hash(state);
         match self {
@@ -58,7 +58,7 @@ impl Hash for Slot {
     }
 }
 
-impl Slot {
+impl ParameterState {
     /// The default that the registry declares.
     pub(crate) fn default_of(param: &Param) -> Self {
         let default = param.default;
@@ -69,13 +69,13 @@ impl Slot {
             ),
             Kind::Text => Self::Text(default.into()),
             Kind::File => Self::File { name: default.into(), text: "".into() },
-            Kind::Formula => Self::Formula(Arc::new(Formula::constant(default))),
-            Kind::Index => Self::Index(Shared::new(IndexState::constant(default))),
-            Kind::Table => Self::Table(Shared::new(TableState::constant(default))),
-            Kind::Films => Self::Films(Shared::default()),
+            Kind::Formula => Self::Formula(Arc::new(FormulaState::constant(default))),
+            Kind::Index => Self::Index(Persistent::new(IndexState::constant(default))),
+            Kind::Table => Self::Table(Persistent::new(TableState::constant(default))),
+            Kind::Films => Self::Films(Persistent::default()),
             Kind::Member(..) => {
                 let class = spec::find_class(default).expect("a test builds every default");
-                Self::Member(Shared::new(Object::new(class)))
+                Self::Member(Persistent::new(ObjectState::new(class)))
             }
         }
     }
@@ -85,7 +85,7 @@ impl Slot {
         &mut self,
         param: &Param,
         text: &str,
-        context: &Context<'_>,
+        context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
         if text == "default" && !self.ignores_default(context) {
             *self = Self::default_of(param);
@@ -103,13 +103,13 @@ impl Slot {
                     context.library.text(text).map_err(|e| SetError::value(e.to_string()))?;
                 Self::File { name: text.into(), text: file }
             }
-            Kind::Formula => Self::Formula(Arc::new(Formula::read(text, context.library)?)),
-            Kind::Index => Self::Index(Shared::new(IndexState::read(text, context)?)),
+            Kind::Formula => Self::Formula(Arc::new(FormulaState::read(text, context.library)?)),
+            Kind::Index => Self::Index(Persistent::new(IndexState::read(text, context)?)),
             Kind::Table => unreachable!("a table is replaced in place"),
-            Kind::Films => Self::Films(Shared::new(FilmsState::read(text, context)?)),
+            Kind::Films => Self::Films(Persistent::new(FilmsState::read(text, context)?)),
             Kind::Member(family, base) => {
                 let class = member(text, family, base)?;
-                Self::Member(Shared::new(Object::new(class)))
+                Self::Member(Persistent::new(ObjectState::new(class)))
             }
         };
         Ok(())
@@ -117,7 +117,7 @@ impl Slot {
 
     /// Whether NIST's library reads `default` as a number, that is as 0: numbers of nested
     /// objects.
-    fn ignores_default(&self, context: &Context<'_>) -> bool {
+    fn ignores_default(&self, context: &ParameterContext<'_>) -> bool {
         let is_number = matches!(self, Self::Number(_) | Self::Integer(_));
         is_number && context.is_nested && Quirk::NestedDefault.applies_in(context.mode)
     }
@@ -128,7 +128,7 @@ impl Slot {
         param: &Param,
         rest: &str,
         text: &str,
-        context: &mut Context<'_>,
+        context: &mut ParameterContext<'_>,
         before: Option<&Self>,
     ) -> Result<(), SetError> {
         match self {

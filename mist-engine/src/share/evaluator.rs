@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use scattering::{Direction, Incidence, Mueller, Notice, ParamError};
 
 use super::{
-    kept::{Kept, Map},
+    cache::{FastMap, WeightedCache},
     models::{ModelCell, Models},
 };
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
         Layout, LayoutKey,
         adaptive::{self, AdaptiveError, Demand},
     },
-    step::{Evaluated, Integral, Step},
+    step::{Evaluated, Step, StepIntegral},
 };
 
 /// Bytes of all layouts kept.
@@ -33,10 +33,10 @@ const SAMPLE_DIGITS: usize = 6;
 
 /// The digest of all that determines a Mueller integral.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Key(Fingerprint);
+struct IntegralKey(Fingerprint);
 
-impl Key {
-    fn new(step: &Step, model: Fingerprint, aperture: Aperture) -> Self {
+impl IntegralKey {
+    fn new(step: &Step, model: Fingerprint, aperture: ApertureId) -> Self {
         let beam = (step.theta_i.to_bits(), step.rotation.to_bits());
         Self(Fingerprint::of(&(model, beam, aperture)))
     }
@@ -44,7 +44,7 @@ impl Key {
 
 /// Where light is collected.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Aperture {
+enum ApertureId {
     /// One direction: the bits of θ and φ.
     Point(u64, u64),
     /// The layout, or the adaptive aperture, with this number.
@@ -52,19 +52,19 @@ enum Aperture {
 }
 
 /// The directions of an aperture, to be shared.
-type Numbered = (u64, Place);
+type NumberedDirections = (u64, TaskDirections);
 
 /// The directions of a piece of work.
 #[derive(Clone)]
-enum Place {
+enum TaskDirections {
     Point(Direction),
     Area(Arc<Layout>),
     Adaptive(Arc<(Region, Demand)>),
 }
 
-impl Place {
+impl TaskDirections {
     /// Where `integral` collects light, unless that is one direction.
-    fn area(integral: &Integral) -> Result<Self, RegionError> {
+    fn area(integral: &StepIntegral) -> Result<Self, RegionError> {
         Ok(match integral.demand {
             Some(demand) => Self::Adaptive(Arc::new((integral.region.clone(), demand))),
             None => Self::Area(Arc::new(Layout::planned(&integral.region, &integral.sampling)?)),
@@ -81,14 +81,14 @@ impl Place {
 
 /// A Mueller integral that was computed.
 #[derive(Clone)]
-struct Found {
+struct MuellerResult {
     matrix: Mueller,
     /// The error of each element, of adaptive integrals.
     error: Option<Arc<Mueller>>,
 }
 
-impl Found {
-    fn evaluated(&self, integral: &Integral) -> Evaluated {
+impl MuellerResult {
+    fn evaluated(&self, integral: &StepIntegral) -> Evaluated {
         let (pol, inpol) = (&integral.pol, &integral.inpol);
         let error = match (&self.error, integral.demand) {
             (Some(error), _) => adaptive::contracted_error(error, pol, inpol),
@@ -100,18 +100,18 @@ impl Found {
 }
 
 /// Why a piece of work has no result.
-enum Undone {
+enum TaskError {
     Parameter(ParamError),
     Adaptive(AdaptiveError),
     Stopped,
 }
 
 /// A Mueller integral to be computed.
-struct Work {
-    key: Key,
+struct IntegralTask {
+    key: IntegralKey,
     cell: Arc<ModelCell>,
     incidence: Incidence,
-    place: Place,
+    place: TaskDirections,
     /// Where its result goes.
     found: usize,
     /// The step that wants it first, and which of its integrals.
@@ -120,31 +120,31 @@ struct Work {
 
 /// What a block of steps wants.
 #[derive(Default)]
-struct Todo {
+struct TaskList {
     /// For every integral of every step, in order, the place of its result.
     places: Vec<usize>,
-    found: Vec<Found>,
-    known: Map<Key, usize>,
+    found: Vec<MuellerResult>,
+    known: FastMap<IntegralKey, usize>,
     /// The key that was looked for last, and its place.
-    last: Option<(Key, usize)>,
-    work: Vec<Work>,
+    last: Option<(IntegralKey, usize)>,
+    work: Vec<IntegralTask>,
     /// Layouts that an earlier block has used.
     again: Vec<Arc<Layout>>,
     /// What the work gave.
-    done: Vec<Result<(Found, u64), Undone>>,
+    done: Vec<Result<(MuellerResult, u64), TaskError>>,
     /// The integrals that were looked at last, and where they collect light.
-    integrals: Option<Arc<Vec<Integral>>>,
-    apertures: Vec<(Aperture, Place)>,
+    integrals: Option<Arc<Vec<StepIntegral>>>,
+    apertures: Vec<(ApertureId, TaskDirections)>,
     /// The beam that was looked at last.
     beam: Option<Incidence>,
 }
 
-impl Todo {
+impl TaskList {
     /// Stores the directions of layouts that more than one integral wants.
     fn store_shared(&self) {
         let mut wanted: Vec<&Arc<Layout>> = self.again.iter().collect();
         wanted.extend(self.work.iter().filter_map(|piece| match &piece.place {
-            Place::Area(layout) => Some(layout),
+            TaskDirections::Area(layout) => Some(layout),
             _ => None,
         }));
         wanted.sort_unstable_by_key(|layout| Arc::as_ptr(layout));
@@ -182,7 +182,11 @@ impl Todo {
     }
 
     /// Where `integrals` collect light.
-    fn look_at(&mut self, integrals: &Arc<Vec<Integral>>, layouts: &Map<LayoutKey, Numbered>) {
+    fn look_at(
+        &mut self,
+        integrals: &Arc<Vec<StepIntegral>>,
+        layouts: &FastMap<LayoutKey, NumberedDirections>,
+    ) {
         if self.integrals.as_ref().is_some_and(|before| Arc::ptr_eq(before, integrals)) {
             return;
         }
@@ -191,40 +195,43 @@ impl Todo {
         self.apertures.extend(integrals.iter().map(|integral| match &integral.region {
             Region::Differential { center: (theta, phi) } => {
                 let direction = Direction::new(*theta, *phi);
-                (Aperture::Point(theta.to_bits(), phi.to_bits()), Place::Point(direction))
+                (
+                    ApertureId::Point(theta.to_bits(), phi.to_bits()),
+                    TaskDirections::Point(direction),
+                )
             }
             _ => {
                 let (id, place) = &layouts[&integral.layout_key()];
-                (Aperture::Area(*id), place.clone())
+                (ApertureId::Area(*id), place.clone())
             }
         }));
     }
 }
 
 /// Everything that steps share.
-pub(crate) struct Shared<'a> {
+pub(crate) struct Evaluator<'a> {
     job: &'a Job,
     control: &'a Control,
     models: Models,
-    layouts: Kept<LayoutKey, Numbered>,
+    layouts: WeightedCache<LayoutKey, NumberedDirections>,
     next_layout: u64,
-    integrals: Kept<Key, Found>,
+    integrals: WeightedCache<IntegralKey, MuellerResult>,
     met: BTreeSet<Notice>,
     /// Empty between two blocks.
-    todo: Todo,
+    todo: TaskList,
 }
 
-impl<'a> Shared<'a> {
+impl<'a> Evaluator<'a> {
     pub(crate) fn new(job: &'a Job, control: &'a Control) -> Self {
         Self {
             job,
             control,
             models: Models::new(job.options.mode),
-            layouts: Kept::up_to(KEPT_LAYOUTS),
+            layouts: WeightedCache::up_to(KEPT_LAYOUTS),
             next_layout: 0,
-            integrals: Kept::up_to(KEPT_INTEGRALS),
+            integrals: WeightedCache::up_to(KEPT_INTEGRALS),
             met: BTreeSet::new(),
-            todo: Todo::default(),
+            todo: TaskList::default(),
         }
     }
 
@@ -245,7 +252,8 @@ impl<'a> Shared<'a> {
         let spent = self.do_all(block, &mut todo)?;
         meter.add(spent).map_err(Failure::Limit)?;
         let integrals = block.iter().flat_map(|step| &*step.integrals);
-        let value = |(integral, place): (&Integral, &usize)| todo.found[*place].evaluated(integral);
+        let value =
+            |(integral, place): (&StepIntegral, &usize)| todo.found[*place].evaluated(integral);
         let values = integrals.zip(&todo.places).map(value).collect();
         todo.forget();
         self.todo = todo;
@@ -253,8 +261,11 @@ impl<'a> Shared<'a> {
     }
 
     /// The layout of every area in the block, made in parallel where it is new.
-    fn lay_out(&mut self, block: &[&Step]) -> Result<Map<LayoutKey, Numbered>, Failure> {
-        let mut layouts = Map::default();
+    fn lay_out(
+        &mut self,
+        block: &[&Step],
+    ) -> Result<FastMap<LayoutKey, NumberedDirections>, Failure> {
+        let mut layouts = FastMap::default();
         let mut wanted: Vec<(LayoutKey, (usize, usize))> = Vec::new();
         let mut seen = BTreeSet::new();
         for (at, step) in block.iter().enumerate() {
@@ -270,7 +281,7 @@ impl<'a> Shared<'a> {
                     continue;
                 }
                 if let Some(found) = self.layouts.get(&key) {
-                    if let Place::Area(layout) = &found.1 {
+                    if let TaskDirections::Area(layout) = &found.1 {
                         self.todo.again.push(layout.clone());
                     }
                     layouts.insert(key, found.clone());
@@ -282,7 +293,7 @@ impl<'a> Shared<'a> {
         }
         let made: Vec<_> = wanted
             .par_iter()
-            .map(|(_, (at, number))| Place::area(&block[*at].integrals[*number]))
+            .map(|(_, (at, number))| TaskDirections::area(&block[*at].integrals[*number]))
             .collect();
         for ((key, wanted_by), place) in wanted.into_iter().zip(made) {
             let place = place.map_err(|error| {
@@ -301,8 +312,8 @@ impl<'a> Shared<'a> {
         &mut self,
         at: usize,
         step: &Step,
-        layouts: &Map<LayoutKey, Numbered>,
-        todo: &mut Todo,
+        layouts: &FastMap<LayoutKey, NumberedDirections>,
+        todo: &mut TaskList,
     ) {
         if step.integrals.is_empty() {
             return;
@@ -315,7 +326,7 @@ impl<'a> Shared<'a> {
                 todo.places.extend_from_within(todo.places.len() - 1..);
                 continue;
             }
-            let key = Key::new(step, model, *aperture);
+            let key = IntegralKey::new(step, model, *aperture);
             if let Some((last, place)) = todo.last
                 && last == key
             {
@@ -330,9 +341,17 @@ impl<'a> Shared<'a> {
                     let cell = self.models.cell(&step.parameters);
                     let (place, wanted_by) = (place.clone(), (at, number));
                     let incidence = todo.beam_of(step);
-                    todo.work.push(Work { key, cell, incidence, place, found: here, wanted_by });
+                    todo.work.push(IntegralTask {
+                        key,
+                        cell,
+                        incidence,
+                        place,
+                        found: here,
+                        wanted_by,
+                    });
                 }
-                todo.found.push(found.unwrap_or(Found { matrix: Mueller::ZERO, error: None }));
+                todo.found
+                    .push(found.unwrap_or(MuellerResult { matrix: Mueller::ZERO, error: None }));
             }
             todo.last = Some((key, here));
             todo.places.push(here);
@@ -340,7 +359,7 @@ impl<'a> Shared<'a> {
     }
 
     /// Does the work and keeps what came out; says how many evaluations of the model it took.
-    fn do_all(&mut self, block: &[&Step], todo: &mut Todo) -> Result<f64, Failure> {
+    fn do_all(&mut self, block: &[&Step], todo: &mut TaskList) -> Result<f64, Failure> {
         let stop = || self.control.is_cancelled();
         let basis = self.job.basis;
         let all = todo.work.par_iter().map(|piece| piece.compute(basis, &stop));
@@ -356,9 +375,9 @@ impl<'a> Shared<'a> {
                     todo.found[piece.found] = found;
                     None
                 }
-                Err(Undone::Stopped) => return Err(Failure::Cancelled),
-                Err(Undone::Parameter(error)) => Some(self.job.parameter_fault(&error)),
-                Err(Undone::Adaptive(error)) => Some(self.adaptive(piece.wanted_by.1, &error)),
+                Err(TaskError::Stopped) => return Err(Failure::Cancelled),
+                Err(TaskError::Parameter(error)) => Some(self.job.parameter_fault(&error)),
+                Err(TaskError::Adaptive(error)) => Some(self.adaptive(piece.wanted_by.1, &error)),
             };
             if let Some(fault) = fault {
                 return Err(self.failure(block, piece.wanted_by, |_| fault));
@@ -435,11 +454,11 @@ impl<'a> Shared<'a> {
     }
 }
 
-impl Work {
+impl IntegralTask {
     /// Whether a later block should find the result: not the only direction of a quick model.
     fn is_worth_keeping(&self) -> bool {
         let is_quick = || self.cell.get().is_ok_and(|built| built.model.is_quick());
-        !(matches!(self.place, Place::Point(..)) && is_quick())
+        !(matches!(self.place, TaskDirections::Point(..)) && is_quick())
     }
 
     /// The Mueller integral, and how many evaluations of the model it took.
@@ -447,11 +466,11 @@ impl Work {
         &self,
         basis: scattering::Basis,
         stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<(Found, u64), Undone> {
-        let exact = |(matrix, count)| (Found { matrix, error: None }, count);
-        let built = || self.cell.get().map_err(|error| Undone::Parameter(error.clone()));
+    ) -> Result<(MuellerResult, u64), TaskError> {
+        let exact = |(matrix, count)| (MuellerResult { matrix, error: None }, count);
+        let built = || self.cell.get().map_err(|error| TaskError::Parameter(error.clone()));
         match &self.place {
-            Place::Point(direction) => {
+            TaskDirections::Point(direction) => {
                 if !(self.incidence.is_above() && direction.is_above()) {
                     // NIST's program does not ask the model here either, so its errors do not
                     // matter.
@@ -461,22 +480,22 @@ impl Work {
                 built()?.model.evaluate(&self.incidence, &[*direction], basis, &mut out);
                 Ok(exact((out[0] * direction.cos, 1)))
             }
-            Place::Area(layout) => {
+            TaskDirections::Area(layout) => {
                 let model = &built()?.model;
                 let found = integrate_counting(model, &self.incidence, basis, layout, stop);
-                found.map(exact).ok_or(Undone::Stopped)
+                found.map(exact).ok_or(TaskError::Stopped)
             }
-            Place::Adaptive(aperture) => {
+            TaskDirections::Adaptive(aperture) => {
                 let (region, demand) = &**aperture;
                 let model = &built()?.model;
                 adaptive::integrate(model, &self.incidence, basis, region, demand, stop)
                     .map(|found| {
                         let (matrix, error) = (found.matrix, Some(Arc::new(found.error)));
-                        (Found { matrix, error }, found.evaluations)
+                        (MuellerResult { matrix, error }, found.evaluations)
                     })
                     .map_err(|error| match error {
-                        AdaptiveError::Stopped => Undone::Stopped,
-                        other => Undone::Adaptive(other),
+                        AdaptiveError::Stopped => TaskError::Stopped,
+                        other => TaskError::Adaptive(other),
                     })
             }
         }

@@ -13,11 +13,11 @@ use crate::{
 /// Evaluations of an adaptive integral, about; it may be a thousand times more.
 const ADAPTIVE_EVALUATIONS: f64 = 2e4;
 
-/// Steps that are skipped before a wish to stop is heard.
+/// Steps skipped between two checks for cancellation.
 const SKIPPED: u64 = 1 << 16;
 
 /// A replay and how far it is.
-pub(super) struct Gather<'a> {
+pub(super) struct StepReader<'a> {
     pub(super) job: &'a Job,
     pub(super) control: &'a Control,
     pub(super) replay: Replay<'a>,
@@ -29,7 +29,7 @@ pub(super) struct Gather<'a> {
     pub(super) cost: f64,
 }
 
-impl<'a> Gather<'a> {
+impl<'a> StepReader<'a> {
     pub(super) fn new(job: &'a Job, control: &'a Control, part: Option<Range<u64>>) -> Self {
         Self { job, control, replay: Replay::new(job), part, next: 0, cost: 0.0 }
     }
@@ -69,7 +69,7 @@ impl<'a> Gather<'a> {
                 }
             } else if let Some(step) = block.last() {
                 self.cost += price(self.job, step)?;
-                // Computed here, so that lanes do it side by side.
+                // Computed here, in parallel by the workers.
                 step.parameters.fingerprint();
             }
         }

@@ -8,22 +8,22 @@ use std::{
 use crate::parameters::Digest;
 
 /// A map with a fast hash; its order is never used.
-pub(crate) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Digest>>;
+pub(crate) type FastMap<K, V> = HashMap<K, V, BuildHasherDefault<Digest>>;
 
 /// Values of a total weight up to a bound.
 ///
 /// They lie in the order they came, so that few pages of memory are touched by many of them.
-pub(crate) struct Kept<K, V> {
-    places: Map<K, u32>,
+pub(crate) struct WeightedCache<K, V> {
+    places: FastMap<K, u32>,
     values: Vec<V>,
     weight: usize,
     most: usize,
 }
 
-impl<K: Hash + Eq, V: Clone> Kept<K, V> {
+impl<K: Hash + Eq, V: Clone> WeightedCache<K, V> {
     /// A cache for a total weight up to `most`.
     pub(crate) fn up_to(most: usize) -> Self {
-        Self { places: Map::default(), values: Vec::new(), weight: 0, most }
+        Self { places: FastMap::default(), values: Vec::new(), weight: 0, most }
     }
 
     pub(crate) fn get(&self, key: &K) -> Option<&V> {
@@ -48,7 +48,7 @@ mod tests {
 
     #[test]
     fn a_full_cache_starts_again_and_keeps_the_new_value() {
-        let mut kept = Kept::up_to(2);
+        let mut kept = WeightedCache::up_to(2);
         kept.insert(1, 'a', 1);
         kept.insert(2, 'b', 1);
         kept.insert(3, 'c', 1);
