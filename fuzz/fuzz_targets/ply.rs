@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use rise_bridge::preview::mesh::Mesh;
+use preview::mesh::Mesh;
 
 fuzz_target!(|bytes: &[u8]| {
     let _ = Mesh::from_ply(bytes);

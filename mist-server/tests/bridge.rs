@@ -4,10 +4,8 @@
 use std::{fs, os::unix::fs::PermissionsExt, path::Path};
 
 use assert_cmd::Command;
-use rise_bridge::{
-    image::{Encoding, Format, Image},
-    rise::table::read,
-};
+use pictures::image::{Encoding, Image, PictureFormat};
+use rise_bridge::rise::table::read;
 
 const SCENE: &str = "RISE ASCII SCENE 7\nfile_rasterizeroutput\n{\n\tpattern\tout/ball\n\ttype\tPNG\n}\n\
     datadriven_material\n{\n\tname\tball\n\tfilename\tnone\n\
@@ -25,9 +23,9 @@ fn renderer(dir: &Path, body: &str) -> std::path::PathBuf {
 fn pictures(dir: &Path) {
     let image = |value| Image::new([2, 1], 3, vec![value; 6], Encoding::Linear).unwrap();
     for (name, value, format) in [
-        ("picture.png", 0.25, Format::Png),
-        ("picture.exr", 0.25, Format::Exr),
-        ("black.png", 0.0, Format::Png),
+        ("picture.png", 0.25, PictureFormat::Png),
+        ("picture.exr", 0.25, PictureFormat::Exr),
+        ("black.png", 0.0, PictureFormat::Png),
     ] {
         fs::write(dir.join(name), image(value).write(format).unwrap()).unwrap();
     }
@@ -118,7 +116,7 @@ fn a_deferred_picture_is_shaded_from_renders_of_geometry() {
     fs::write(dir.path().join("plane.RISEscene"), format!("{SCENE}{PLANE}")).unwrap();
     for (name, value) in [("one.exr", 1.0), ("zero.exr", 0.0)] {
         let image = Image::new([8, 6], 3, vec![value; 144], Encoding::Linear).unwrap();
-        fs::write(dir.path().join(name), image.write(Format::Exr).unwrap()).unwrap();
+        fs::write(dir.path().join(name), image.write(PictureFormat::Exr).unwrap()).unwrap();
     }
     let rise = renderer(
         dir.path(),

@@ -3,7 +3,7 @@
 use std::{fs, path::Path};
 
 use assert_cmd::Command;
-use rise_bridge::image::{Encoding, Format, Image};
+use pictures::image::{Encoding, Image, PictureFormat};
 use serde_json::Value;
 
 fn mist(folder: &Path, arguments: &[&str]) -> Command {
@@ -34,7 +34,7 @@ fn waves(contrast: f32, encoding: Encoding, channels: usize) -> Image {
 }
 
 fn save(folder: &Path, name: &str, image: &Image) {
-    let format = Format::of_name(name).unwrap();
+    let format = PictureFormat::of_name(name).unwrap();
     fs::write(folder.join(name), image.write(format).unwrap()).unwrap();
 }
 

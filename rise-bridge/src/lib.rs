@@ -6,7 +6,7 @@
 //! `docs/formats/mtab.md`.
 //!
 //! [`mitsuba`] has the frames and the tables of that renderer, [`tensor`] their container.
-//! [`image`] reads and writes pictures, and [`difference`] tells what two of them differ in.
+//! [`rise`] makes scenes for RISE and pictures from its renders.
 //!
 //! ```
 //! # let text = include_str!("../tests/data/orange_paint.mtab");
@@ -18,13 +18,10 @@
 //! ```
 
 mod column;
-pub mod difference;
 pub mod export;
 pub mod goniometer;
-pub mod image;
 pub mod klems;
 pub mod mitsuba;
-pub mod preview;
 pub mod read;
 pub mod rise;
 pub mod tensor;

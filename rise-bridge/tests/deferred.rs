@@ -12,10 +12,10 @@ use mist_engine::{
     Control, Files, MemoryFiles,
     material::{Material, Prepared, query::ColourNames},
 };
+use pictures::image::{Encoding, Image};
+use preview::{Film, Lamp, LampBasis, Scene, Shape, Sky};
 use rise_bridge::{
     export::ExportError,
-    image::{Encoding, Image},
-    preview::{self, Film, Lamp, LampBasis, Scene, Shape, Sky},
     rise::{
         deferred::{self, Deferred, Lit},
         scene::{Chunk, chunks},

@@ -101,12 +101,11 @@ pub fn compare(
         let (measured, simulated) = (range(all), range(known));
         return Err(CompareError::Apart { found: wavelengths.len(), measured, simulated });
     }
-    let mut s = vec![0.0; m.len()];
-    if known.len() < 4 {
+    let s = cubic_spline(known, simulated.values(), &wavelengths).unwrap_or_else(|| {
+        let mut s = vec![0.0; m.len()];
         straight_lines(known, simulated.values(), &wavelengths, &mut s);
-    } else {
-        cubic_spline(known, simulated.values(), &wavelengths, &mut s);
-    }
+        s
+    });
     let square = dot(&s, &s);
     if !(square > 0.0) {
         return Err(CompareError::Zero);

@@ -7,7 +7,7 @@ mod cubic;
 mod linear;
 mod sprague;
 
-pub(crate) use cubic::interpolate as cubic_spline;
+pub use cubic::cubic_spline;
 pub(crate) use linear::interpolate as straight_lines;
 
 use crate::{

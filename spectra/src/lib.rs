@@ -18,7 +18,6 @@ pub mod observer;
 pub mod plan;
 pub mod rgb;
 pub mod spectrum;
-pub mod visible;
 pub mod wavelength;
 pub mod weights;
 pub mod xyz;

@@ -9,10 +9,8 @@ use mist_engine::{
     Control,
     material::{Material, Prepared, query::ColourNames},
 };
-use rise_bridge::{
-    mitsuba::{axes::Axes, pbsdf},
-    preview::{Lamp, LampBasis, Scene, Shape, Sky, mesh::Mesh, render},
-};
+use preview::{Lamp, LampBasis, Scene, Shape, Sky, mesh::Mesh, render};
+use rise_bridge::mitsuba::{axes::Axes, pbsdf};
 use scattering::Mode;
 
 fn material(json: &str) -> Prepared {

@@ -6,8 +6,16 @@ use std::{
     path::{Path, PathBuf},
 };
 
-const CRATES: [&str; 6] =
-    ["spectra", "scattering", "mist-format", "mist-engine", "rise-bridge", "mist-server"];
+const CRATES: [&str; 8] = [
+    "spectra",
+    "scattering",
+    "mist-format",
+    "mist-engine",
+    "pictures",
+    "preview",
+    "rise-bridge",
+    "mist-server",
+];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ has a parent").to_owned()
@@ -55,8 +63,19 @@ fn the_engine_uses_texts_models_and_colours_only() {
 }
 
 #[test]
+fn pictures_know_colours_only() {
+    assert_uses_only("pictures", &["spectra"]);
+}
+
+#[test]
+fn the_preview_knows_no_format_of_a_renderer() {
+    assert_uses_only("preview", &["mist-engine", "pictures", "scattering", "spectra"]);
+}
+
+#[test]
 fn the_bridge_does_not_use_the_server() {
-    assert_uses_only("rise-bridge", &["mist-engine", "mist-format", "scattering", "spectra"]);
+    let below = ["mist-engine", "mist-format", "pictures", "preview", "scattering", "spectra"];
+    assert_uses_only("rise-bridge", &below);
 }
 
 #[test]

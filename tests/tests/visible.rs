@@ -7,12 +7,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use rise_bridge::{
-    difference::{Settings, compare},
+use pictures::{
+    difference::{ComparisonSettings, compare},
     image::Image,
+    visible::{DetectionMap, DetectorSettings, FrontEnd, Luminances, Viewing, detect},
 };
 use serde::Deserialize;
-use spectra::visible::{Detection, FrontEnd, Luminances, Settings as Model, Viewing, detect};
 
 #[derive(Deserialize)]
 struct Reference {
@@ -58,7 +58,7 @@ impl Case {
         Viewing::new([width_m, height_m], [x, y], distance_m).unwrap()
     }
 
-    fn detect(&self, model: Model) -> Detection {
+    fn detect(&self, model: DetectorSettings) -> DetectionMap {
         let [test, reference] = self.images().map(|image| {
             let [width, height] = image.size();
             let values = image.values().iter().map(|v| f64::from(*v)).collect();
@@ -78,7 +78,7 @@ fn cases() -> Vec<Case> {
 }
 
 /// Means over blocks of 16 × 16 pixels.
-fn blocks(map: &Detection) -> Vec<Vec<f64>> {
+fn blocks(map: &DetectionMap) -> Vec<Vec<f64>> {
     let [width, height] = map.size();
     let block = |top: usize, left: usize| {
         let rows = (top..top + 16).map(|y| &map.probability()[y * width + left..][..16]);
@@ -88,7 +88,7 @@ fn blocks(map: &Detection) -> Vec<Vec<f64>> {
 }
 
 /// The largest difference of a percentage, and of a block.
-fn worst(map: &Detection, found: &Found) -> [f64; 2] {
+fn worst(map: &DetectionMap, found: &Found) -> [f64; 2] {
     let percentages = [(0.75, found.p75_percent), (0.95, found.p95_percent)];
     let percent = percentages.map(|(p, expected)| (map.percent_above(p) - expected).abs());
     let ours = blocks(map);
@@ -101,7 +101,7 @@ fn worst(map: &Detection, found: &Found) -> [f64; 2] {
 #[test]
 fn the_predictor_for_high_dynamic_range_agrees_with_the_tool() {
     for case in cases() {
-        let map = case.detect(Model { front_end: FrontEnd::Hdr, compat: true });
+        let map = case.detect(DetectorSettings { front_end: FrontEnd::Hdr, compat: true });
         let [percent, block] = worst(&map, &case.hdr);
         // The tool's table of steps of luminance is known at 39 places only, to 0.2 %.
         assert!(percent < 0.05 && block < 0.002, "{}: {percent} {block}", case.id);
@@ -111,7 +111,7 @@ fn the_predictor_for_high_dynamic_range_agrees_with_the_tool() {
 #[test]
 fn the_predictor_of_daly_agrees_with_the_tool() {
     for case in cases() {
-        let map = case.detect(Model { front_end: FrontEnd::Daly1993, compat: true });
+        let map = case.detect(DetectorSettings { front_end: FrontEnd::Daly1993, compat: true });
         let [percent, block] = worst(&map, &case.daly_1993_mode);
         // The tool computes in single precision; block means are printed with five decimals.
         assert!(percent < 0.005 && block < 2e-5, "{}: {percent} {block}", case.id);
@@ -121,7 +121,7 @@ fn the_predictor_of_daly_agrees_with_the_tool() {
 #[test]
 fn without_the_habits_of_the_tool_percentages_move_by_less_than_a_point() {
     for case in cases() {
-        let map = case.detect(Model { front_end: FrontEnd::Hdr, compat: false });
+        let map = case.detect(DetectorSettings { front_end: FrontEnd::Hdr, compat: false });
         let [percent, _] = worst(&map, &case.hdr);
         assert!(percent < 1.0, "{}: {percent}", case.id);
     }
@@ -132,16 +132,20 @@ fn a_grey_float_picture_is_luminance_and_colours_are_scaled() {
     let cases = cases();
     let case = cases.iter().find(|case| case.id == "gabor4cpd_c0.02").expect("it is there");
     let [test, reference] = case.images();
-    let settings = Settings { viewing: case.viewing(), compat: true, ..Settings::default() };
+    let settings = ComparisonSettings {
+        viewing: case.viewing(),
+        compat: true,
+        ..ComparisonSettings::default()
+    };
     let found = compare(&test, &reference, &settings).unwrap();
-    assert!((found.seen.p75_percent - case.hdr.p75_percent).abs() < 0.05);
+    assert!((found.detection.p75_percent - case.hdr.p75_percent).abs() < 0.05);
     let coloured = |image: &Image| {
         let values = image.values().iter().flat_map(|v| [v / 50.0; 3]).collect();
         Image::new(image.size(), 3, values, image.encoding()).unwrap()
     };
-    let scaled = Settings { scale: 50.0, ..settings };
+    let scaled = ComparisonSettings { scale: 50.0, ..settings };
     let again = compare(&coloured(&test), &coloured(&reference), &scaled).unwrap();
     // The same luminances but for single precision.
-    assert!((again.seen.p75_percent - found.seen.p75_percent).abs() < 0.005);
-    assert!((again.seen.mean - found.seen.mean).abs() < 1e-6);
+    assert!((again.detection.p75_percent - found.detection.p75_percent).abs() < 0.005);
+    assert!((again.detection.mean - found.detection.mean).abs() < 1e-6);
 }

@@ -7,12 +7,10 @@ use std::{
 };
 
 use mist_engine::material::query;
-use rise_bridge::{
-    image::{Format, Image},
-    rise::{
-        product::{self, Made, Wanted},
-        stack,
-    },
+use pictures::image::{Image, PictureFormat};
+use rise_bridge::rise::{
+    product::{self, Made, Wanted},
+    stack,
 };
 
 use super::{
@@ -151,7 +149,7 @@ fn stacked(
 /// Writes `NAME.exr` (linear) and `NAME.png` (sRGB); says where they are.
 fn save_image(folder: &Path, name: &str, image: &Image) -> Result<[PathBuf; 2], Stop> {
     let paths = ["exr", "png"].map(|extension| folder.join(format!("{name}.{extension}")));
-    for (path, format) in paths.iter().zip([Format::Exr, Format::Png]) {
+    for (path, format) in paths.iter().zip([PictureFormat::Exr, PictureFormat::Png]) {
         let failed = |error: String| Stop::Failed(format!("{}: {error}", path.display()));
         let bytes = image.write(format).map_err(|error| failed(error.to_string()))?;
         WholeFile::write_bytes(path, &bytes).map_err(|error| failed(error.to_string()))?;

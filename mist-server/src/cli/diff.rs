@@ -6,11 +6,11 @@ use std::{
 };
 
 use mist_format::number::general;
-use rise_bridge::{
-    difference::{self, Difference, Seen, Settings},
-    image::{Encoding, Format, Image},
+use pictures::{
+    difference::{self, ComparisonSettings, DetectionSummary, PictureDifference},
+    image::{Encoding, Image, PictureFormat},
+    visible::Viewing,
 };
-use spectra::visible::Viewing;
 
 use super::{print, run::pool, stop::Stop};
 use crate::disk::WholeFile;
@@ -80,7 +80,7 @@ pub(super) fn diff(args: &Args) -> Result<(), Stop> {
         .map_err(|error| refused(&error))?;
     let formats = [format_of(args.map.as_deref())?, format_of(args.overlay.as_deref())?];
     let (test, reference) = (read(&args.test)?, read(&args.reference)?);
-    let settings = Settings {
+    let settings = ComparisonSettings {
         viewing,
         white: args.white,
         scale: args.scale,
@@ -91,7 +91,7 @@ pub(super) fn diff(args: &Args) -> Result<(), Stop> {
     let found = pool(None)?.install(compare).map_err(|error| refused(&error))?;
     if let (Some(path), Some(format)) = (&args.map, formats[0]) {
         // Probabilities are written as they are, in PNG too.
-        let encoding = if format == Format::Png { Encoding::Srgb } else { Encoding::Linear };
+        let encoding = if format == PictureFormat::Png { Encoding::Srgb } else { Encoding::Linear };
         write(path, &found.map_image(encoding), format)?;
     }
     if let (Some(path), Some(format)) = (&args.overlay, formats[1]) {
@@ -101,10 +101,10 @@ pub(super) fn diff(args: &Args) -> Result<(), Stop> {
 }
 
 /// The format that a picture called `path` is written in.
-fn format_of(path: Option<&Path>) -> Result<Option<Format>, Stop> {
+fn format_of(path: Option<&Path>) -> Result<Option<PictureFormat>, Stop> {
     let Some(path) = path else { return Ok(None) };
-    match Format::of_name(&path.to_string_lossy()) {
-        Some(format) if format != Format::Hdr => Ok(Some(format)),
+    match PictureFormat::of_name(&path.to_string_lossy()) {
+        Some(format) if format != PictureFormat::Hdr => Ok(Some(format)),
         _ => {
             let name = path.display();
             Err(Stop::Refused(format!("{name}: pictures are written as .png, .exr or .pfm")))
@@ -119,7 +119,7 @@ fn read(path: &Path) -> Result<Image, Stop> {
     Image::read(&bytes).map_err(|error| Stop::Refused(format!("{name}: {error}")))
 }
 
-fn write(path: &Path, image: &Image, format: Format) -> Result<(), Stop> {
+fn write(path: &Path, image: &Image, format: PictureFormat) -> Result<(), Stop> {
     let failed = |error: &dyn std::fmt::Display| {
         Stop::Failed(format!("cannot write {}: {error}", path.display()))
     };
@@ -128,14 +128,14 @@ fn write(path: &Path, image: &Image, format: Format) -> Result<(), Stop> {
 }
 
 /// The numbers for people.
-fn describe(found: &Difference) -> String {
-    let Settings { viewing, compat, white, .. } = &found.settings;
+fn describe(found: &PictureDifference) -> String {
+    let ComparisonSettings { viewing, compat, white, .. } = &found.settings;
     let [width, height] = found.map.size();
     let [least, most] = found.reference.range();
     let habits = if *compat { ", with the habits of HDR-VDP 1.7" } else { "" };
     let mut text = format!(
         "{}   (HDR-VDP 1{habits}, {} pixels per degree, {} m, Y {}–{} cd/m2, {width}x{height})\n",
-        percentages(&found.seen),
+        percentages(&found.detection),
         general(viewing.pixels_per_degree(), 4),
         general(viewing.distance_m(), 4),
         general(least, 4),
@@ -159,6 +159,6 @@ fn describe(found: &Difference) -> String {
     text
 }
 
-fn percentages(seen: &Seen) -> String {
+fn percentages(seen: &DetectionSummary) -> String {
     format!("P>75%: {:.2} %   P>95%: {:.2} %", seen.p75_percent, seen.p95_percent)
 }

@@ -3,12 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use mist_engine::material::query::{self, ColourNames};
-use rise_bridge::{
-    image::{Format, Image},
-    preview::{
-        self, Environment, Film, Lamp, LampBasis, Polarization, Scene, Shape, Sky, brightest,
-        mesh::Mesh, picture, side_by_side, spectral_exr,
-    },
+use pictures::image::{Image, PictureFormat};
+use preview::{
+    Environment, Film, Lamp, LampBasis, Polarization, Scene, Shape, Sky, brightest, mesh::Mesh,
+    picture, side_by_side, spectral_exr,
 };
 use spectra::{ColourPlan, ColourSettings, Grid};
 
@@ -133,11 +131,11 @@ const MOST_SAMPLES: usize = 1 << 30;
 
 /// Renders the picture and writes it.
 pub(super) fn preview(args: &Args) -> Result<(), Stop> {
-    let format = Format::of_name(&args.output.to_string_lossy());
-    let format = format.filter(|format| *format != Format::Hdr).ok_or_else(|| {
+    let format = PictureFormat::of_name(&args.output.to_string_lossy());
+    let format = format.filter(|format| *format != PictureFormat::Hdr).ok_or_else(|| {
         Stop::Refused("the name of the output ends with .png, .exr or .pfm".into())
     })?;
-    if args.spectral && format != Format::Exr {
+    if args.spectral && format != PictureFormat::Exr {
         return Err(Stop::Refused("--spectral writes an .exr".into()));
     }
     let scene = args.scene()?;
@@ -169,7 +167,7 @@ pub(super) fn preview(args: &Args) -> Result<(), Stop> {
 
 impl Args {
     fn image(&self, film: &Film, plan: &ColourPlan, filter: Polarization) -> Result<Image, Stop> {
-        let failed = |error: rise_bridge::image::ImageError| Stop::Failed(error.to_string());
+        let failed = |error: pictures::image::ImageError| Stop::Failed(error.to_string());
         let seen = picture(film, plan, filter, self.exposure).map_err(failed)?;
         if !self.side_by_side {
             return Ok(seen);
@@ -215,7 +213,7 @@ impl Args {
         }
         match &self.environment {
             _ if factor == 0.0 => Ok(Sky::Dark),
-            None => Ok(Sky::Even(factor)),
+            None => Ok(Sky::Uniform(factor)),
             Some(path) => {
                 let refused = |error: &dyn std::fmt::Display| {
                     Stop::Refused(format!("--environment {}: {error}", path.display()))

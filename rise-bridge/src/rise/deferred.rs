@@ -14,6 +14,8 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use glam::DVec3;
 use mist_engine::{Control, Files};
+use pictures::image::Image;
+use preview::{DistantLamps, Film, LampBasis, SurfacePoint, shade};
 use scattering::Mode;
 use spectra::{ColourSettings, Xyz};
 
@@ -21,11 +23,7 @@ use super::{
     material::{Described, described},
     scene::chunks,
 };
-use crate::{
-    export::ExportError,
-    image::Image,
-    preview::{DistantLamps, Film, LampBasis, SurfacePoint, shade},
-};
+use crate::export::ExportError;
 
 use camera::Camera;
 use passes::Passes;

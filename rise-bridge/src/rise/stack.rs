@@ -5,13 +5,11 @@
 //! spectrum of an illuminant it becomes XYZ and linear sRGB, as that of a reflectance does.
 
 use mist_engine::material::query::ColourNames;
+use pictures::image::{Encoding, Image};
 use spectra::{ColourPlan, Grid};
 
 use super::product::triples;
-use crate::{
-    export::ExportError,
-    image::{Encoding, Image},
-};
+use crate::export::ExportError;
 
 /// The picture of `renders` under `illuminant`: a CIE name, a temperature or `D(temperature)`.
 ///

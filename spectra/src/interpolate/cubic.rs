@@ -7,6 +7,19 @@
 
 use super::locate;
 
+/// The values at `at` of the spline through the samples `y` at rising `x`.
+///
+/// Beyond the samples the first and the last cubic continue. There is no spline through fewer than
+/// four samples, or through lists of unequal length.
+pub fn cubic_spline(x: &[f64], y: &[f64], at: &[f64]) -> Option<Vec<f64>> {
+    if x.len() < 4 || x.len() != y.len() {
+        return None;
+    }
+    let mut out = vec![0.0; at.len()];
+    interpolate(x, y, at, &mut out);
+    Some(out)
+}
+
 /// Interpolates at least four samples `y` at ascending `x`; `at` lies within `x`.
 pub(crate) fn interpolate(x: &[f64], y: &[f64], at: &[f64], out: &mut [f64]) {
     let slope = slopes(x, y);

@@ -1,9 +1,9 @@
 //! `mist bridge --deferred`: scenes of geometry alone, and pictures from their renders.
 
+use ::preview::{Film, Polarization, brightest, picture};
 use mist_engine::material::query::{self, ColourNames};
 use rise_bridge::{
     export::ExportError,
-    preview::{Film, Polarization, brightest, picture},
     rise::deferred::{self, Lit},
 };
 use spectra::{ColourPlan, Grid};

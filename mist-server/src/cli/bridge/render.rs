@@ -12,7 +12,7 @@ use std::{
     time::Instant,
 };
 
-use rise_bridge::image::{Format, Image};
+use pictures::image::{Image, PictureFormat};
 
 use super::Stop;
 
@@ -97,7 +97,7 @@ impl Renderer {
             if size == 0 {
                 return Err(failed(format!("RISE wrote no {image}")));
             }
-            if Format::of_name(image).is_some() {
+            if PictureFormat::of_name(image).is_some() {
                 judge(&folder.join(image)).map_err(&failed)?;
             }
         }

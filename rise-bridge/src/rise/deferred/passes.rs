@@ -4,11 +4,11 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use pictures::image::MOST_PIXELS;
 
 use super::{Lamp, camera::triple};
 use crate::{
     export::ExportError,
-    image::MOST_PIXELS,
     rise::scene::{Chunk, replaced},
 };
 

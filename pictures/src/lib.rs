@@ -1,0 +1,5 @@
+#![doc = include_str!("../README.md")]
+
+pub mod difference;
+pub mod image;
+pub mod visible;
