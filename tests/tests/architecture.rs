@@ -1,29 +1,116 @@
-//! The invariants of `ARCHITECTURE.md` that a reader of the sources can check.
+//! The rules of `ARCHITECTURE.md` that can be checked by reading the sources.
+//!
+//!     cargo test --release -p mist-tests --test architecture
+//!
+//! A test that fails lists every place at fault.
+
+#[path = "architecture/known.rs"]
+mod known;
 
 use std::{
-    collections::BTreeSet,
+    collections::{BTreeMap, BTreeSet},
     fs,
-    path::{Path, PathBuf},
 };
 
-const CRATES: [&str; 8] = [
-    "spectra",
-    "scattering",
-    "mist-format",
-    "mist-engine",
-    "pictures",
-    "preview",
-    "rise-bridge",
-    "mist-server",
-];
+use mist_tests::sources::{
+    CrateTree, circles::circles, files, functions, imports, packages, paths, prose, root, shown,
+    trees, type_name,
+};
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ has a parent").to_owned()
+/// Things outside of the process that a crate may be allowed to know.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Outside {
+    /// The file system.
+    Files,
+    /// Arguments, standard streams, colours and progress bars.
+    Terminals,
+    /// Network connections and what speaks over them.
+    Sockets,
+    /// Starting threads or pools of threads; running on the pool of the caller is free.
+    Threads,
 }
 
-/// Names in the section `[dependencies]` of a crate.
-fn dependencies(name: &str) -> BTreeSet<String> {
-    let path = root().join(name).join("Cargo.toml");
+use Outside::{Files, Sockets, Terminals, Threads};
+
+/// What one crate may use and know.
+struct Rule {
+    package: &'static str,
+    /// Crates of this workspace that it may depend on.
+    uses: &'static [&'static str],
+    knows: &'static [Outside],
+}
+
+/// Every crate of the workspace. A crate without a row fails `every_crate_has_a_rule`.
+const RULES: &[Rule] = &[
+    Rule { package: "spectra", uses: &[], knows: &[] },
+    Rule { package: "scattering", uses: &["spectra"], knows: &[] },
+    Rule { package: "mist-format", uses: &[], knows: &[] },
+    Rule { package: "mist-engine", uses: &["mist-format", "scattering", "spectra"], knows: &[] },
+    Rule { package: "pictures", uses: &["spectra"], knows: &[] },
+    Rule {
+        package: "preview",
+        uses: &["mist-engine", "pictures", "scattering", "spectra"],
+        knows: &[],
+    },
+    Rule {
+        package: "rise-bridge",
+        uses: &["mist-engine", "mist-format", "pictures", "preview", "scattering", "spectra"],
+        knows: &[],
+    },
+    Rule {
+        package: "mist-server",
+        uses: &[
+            "mist-engine",
+            "mist-format",
+            "pictures",
+            "preview",
+            "rise-bridge",
+            "scattering",
+            "spectra",
+        ],
+        knows: &[Files, Terminals, Sockets, Threads],
+    },
+    Rule { package: "tests", uses: &["mist-engine", "mist-format", "scattering"], knows: &[Files] },
+];
+
+impl Outside {
+    const ALL: [Self; 4] = [Files, Terminals, Sockets, Threads];
+
+    /// Crates that are for this only.
+    fn dependencies(self) -> &'static [&'static str] {
+        match self {
+            Files => &["tempfile", "redb"],
+            Terminals => &["clap", "indicatif", "annotate-snippets"],
+            Sockets => &["axum", "hyper", "hyper-util", "tokio", "tower-http"],
+            Threads => &[],
+        }
+    }
+
+    /// Paths, or beginnings of paths, that only code that knows it names.
+    fn paths(self) -> &'static [&'static str] {
+        match self {
+            Files => &["std::fs", "fs::", "File::open", "File::create", "OpenOptions"],
+            Terminals => &["std::io::IsTerminal", "std::env::args"],
+            Sockets => &["std::net", "std::os::unix::net"],
+            Threads => &["thread::spawn", "thread::scope", "thread::Builder", "ThreadPoolBuilder"],
+        }
+    }
+
+    /// Whether a path such as `std::fs::read` can only be written by code that knows it.
+    fn is_named_by(self, written: &str) -> bool {
+        let written = written.trim_start_matches("rayon::");
+        let shortened = written.trim_start_matches("std::");
+        self.paths().iter().any(|start| written.starts_with(start) || shortened.starts_with(start))
+    }
+}
+
+fn all_trees() -> Vec<CrateTree> {
+    packages().iter().flat_map(|package| trees(package)).collect()
+}
+
+/// Names in the section `[dependencies]` of a package.
+fn dependencies(package: &str) -> BTreeSet<String> {
+    let path = root().join(package).join("Cargo.toml");
     let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     text.lines()
         .map(str::trim)
@@ -35,105 +122,156 @@ fn dependencies(name: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// Our crates that `name` uses.
-fn ours(name: &str) -> Vec<String> {
-    dependencies(name).into_iter().filter(|other| CRATES.contains(&other.as_str())).collect()
+fn assert_none(faults: &[String], rule: &str) {
+    assert!(faults.is_empty(), "{rule}:\n{}", faults.join("\n"));
 }
 
-fn assert_uses_only(name: &str, allowed: &[&str]) {
-    for used in ours(name) {
-        assert!(allowed.contains(&used.as_str()), "{name} must not use {used}");
+/// Fails if there are more faults than the known ones.
+fn assert_at_most(known: usize, faults: &[String], rule: &str) {
+    println!("{rule}: {} of {known} known", faults.len());
+    faults.iter().for_each(|fault| println!("  {fault}"));
+    assert!(faults.len() <= known, "{}, at most {known}: {rule}", faults.len());
+}
+
+#[test]
+fn every_crate_has_a_rule() {
+    let named: Vec<&str> = RULES.iter().map(|rule| rule.package).collect();
+    for package in packages() {
+        assert!(named.contains(&package.as_str()), "{package} has no row in RULES");
+    }
+    for name in named {
+        assert!(packages().iter().any(|package| package == name), "{name} is no package");
     }
 }
 
 #[test]
-fn spectra_and_mist_format_use_no_crate_of_ours() {
-    assert_uses_only("spectra", &[]);
-    assert_uses_only("mist-format", &[]);
-}
-
-#[test]
-fn scattering_knows_no_texts_and_no_engine() {
-    assert_uses_only("scattering", &["spectra"]);
-}
-
-#[test]
-fn the_engine_uses_texts_models_and_colours_only() {
-    assert_uses_only("mist-engine", &["mist-format", "scattering", "spectra"]);
-}
-
-#[test]
-fn pictures_know_colours_only() {
-    assert_uses_only("pictures", &["spectra"]);
-}
-
-#[test]
-fn the_preview_knows_no_format_of_a_renderer() {
-    assert_uses_only("preview", &["mist-engine", "pictures", "scattering", "spectra"]);
-}
-
-#[test]
-fn the_bridge_does_not_use_the_server() {
-    let below = ["mist-engine", "mist-format", "pictures", "preview", "scattering", "spectra"];
-    assert_uses_only("rise-bridge", &below);
-}
-
-#[test]
-fn only_the_server_knows_arguments_sockets_and_terminals() {
-    let server = dependencies("mist-server");
-    for edge in ["clap", "axum", "tokio", "indicatif", "annotate-snippets"] {
-        assert!(server.contains(edge), "{edge} is gone from mist-server: change this list");
-        for name in CRATES.iter().filter(|name| **name != "mist-server") {
-            assert!(!dependencies(name).contains(edge), "{name} must not use {edge}");
+fn crates_depend_only_on_the_crates_their_rule_names() {
+    let mut faults = Vec::new();
+    for rule in RULES {
+        for used in dependencies(rule.package) {
+            let is_ours = RULES.iter().any(|other| other.package == used);
+            if is_ours && !rule.uses.contains(&used.as_str()) {
+                faults.push(format!("{} depends on {used}", rule.package));
+            }
         }
     }
+    assert_none(&faults, "dependencies against RULES");
 }
 
 #[test]
-fn only_the_server_opens_files_sockets_and_thread_pools() {
-    for name in CRATES.iter().filter(|name| **name != "mist-server") {
-        let all = sources(&root().join(name).join("src"));
-        for path in all.iter().filter(|path| path.file_name().is_none_or(|n| n != "tests.rs")) {
-            let text = fs::read_to_string(path).expect("a source is text");
-            let code = text.split("#[cfg(test)]").next().unwrap_or(&text);
-            let code = code.lines().filter(|line| !line.trim_start().starts_with("//"));
-            for line in code {
-                for edge in ["std::fs", "fs::read", "File::open", "std::net", "ThreadPoolBuilder"] {
-                    assert!(!line.contains(edge), "{}: {line}", path.display());
+fn crates_know_only_what_their_rule_allows() {
+    let mut faults = Vec::new();
+    for rule in RULES {
+        let forbidden: Vec<Outside> =
+            Outside::ALL.into_iter().filter(|outside| !rule.knows.contains(outside)).collect();
+        let used = dependencies(rule.package);
+        for outside in &forbidden {
+            for dependency in outside.dependencies().iter().filter(|name| used.contains(**name)) {
+                faults.push(format!("{} depends on {dependency} ({outside:?})", rule.package));
+            }
+        }
+        for module in trees(rule.package).iter().flat_map(|tree| &tree.modules) {
+            let imported = paths::imported_names(&module.items).into_iter().map(|name| name.path);
+            for path in imported.chain(paths::written_paths(&module.items)) {
+                let written = path.segments.join("::");
+                for outside in forbidden.iter().filter(|outside| outside.is_named_by(&written)) {
+                    let file = shown(&module.file);
+                    faults.push(format!("{file}:{}: {written} ({outside:?})", path.line));
                 }
             }
         }
+    }
+    assert_none(&faults, "crates know more than RULES allows");
+}
+
+#[test]
+fn no_modules_use_one_another_in_a_circle() {
+    let mut found = Vec::new();
+    for tree in all_trees() {
+        for circle in circles(&tree, &imports::edges(&tree)) {
+            println!("{}: {} modules in a circle", tree.package, circle.modules.len());
+            for (user, used, usage) in &circle.usages {
+                println!("    {user} -> {used}   {usage}");
+            }
+            found.extend(circle.modules.iter().map(|module| format!("{}: {module}", tree.package)));
+        }
+    }
+    assert_at_most(known::MODULES_IN_CIRCLES, &found, "modules in circles; their uses are above");
+}
+
+#[test]
+fn no_type_name_stands_twice() {
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for tree in all_trees() {
+        for module in &tree.modules {
+            for name in module.items.iter().filter_map(type_name) {
+                places.entry(name).or_default().push(shown(&module.file));
+            }
+        }
+    }
+    let mut faults = Vec::new();
+    for (name, files) in places.iter().filter(|(_, files)| files.len() > 1) {
+        let line = format!("{name}: {}", files.join(", "));
+        if known::REPEATED_TYPES.contains(&name.as_str()) {
+            println!("known: {line}");
+        } else {
+            faults.push(line);
+        }
+    }
+    assert_none(&faults, "type names that stand twice");
+}
+
+#[test]
+fn files_are_short() {
+    let mut lengths: Vec<(usize, String)> = Vec::new();
+    for path in packages().iter().flat_map(|package| files(&root().join(package))) {
+        let lines = fs::read_to_string(&path).expect("a source is text").lines().count();
+        lengths.push((lines, shown(&path)));
+    }
+    for (limit, known) in [(500, known::FILES_ABOVE_500), (400, known::FILES_ABOVE_400)] {
+        let long = lengths.iter().filter(|(lines, _)| *lines > limit);
+        let long: Vec<String> = long.map(|(lines, file)| format!("{lines} {file}")).collect();
+        assert_at_most(known, &long, &format!("files above {limit} lines"));
     }
 }
 
 #[test]
 fn every_source_file_says_in_its_first_line_what_it_is() {
-    let folders = CRATES.iter().map(|name| root().join(name)).chain([root().join("tests")]);
-    let mut silent = Vec::new();
-    for path in folders.flat_map(|folder| sources(&folder)) {
+    let mut faults = Vec::new();
+    for path in packages().iter().flat_map(|package| files(&root().join(package))) {
         let text = fs::read_to_string(&path).expect("a source is text");
         let first = text.lines().next().unwrap_or("");
         if !first.starts_with("//!") && !first.starts_with("#![doc = include_str!(") {
-            silent.push(path);
+            faults.push(shown(&path));
         }
     }
-    assert!(silent.is_empty(), "without a first line //!: {silent:?}");
+    assert_none(&faults, "without a first line //!");
 }
 
-/// All Rust sources below `folder`, in order.
-fn sources(folder: &Path) -> Vec<PathBuf> {
+#[test]
+fn doc_comments_begin_with_their_subject() {
     let mut found = Vec::new();
-    let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
-    for entry in entries {
-        let path = entry.expect("the folder can be read").path();
-        if path.is_dir() {
-            if path.file_name().is_none_or(|name| name != "target") {
-                found.extend(sources(&path));
-            }
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
+    for path in packages().iter().flat_map(|package| files(&root().join(package))) {
+        let text = fs::read_to_string(&path).expect("a source is text");
+        for (line, comment) in prose::forbidden_starts(&text) {
+            found.push(format!("{}:{line}: {comment}", shown(&path)));
         }
     }
-    found.sort();
-    found
+    let rule = format!("doc comments that begin with one of {:?}", prose::FORBIDDEN_STARTS);
+    assert_at_most(known::DOC_STARTS, &found, &rule);
+}
+
+#[test]
+fn functions_stay_short() {
+    let mut lengths: Vec<usize> =
+        all_trees().iter().flat_map(functions::function_lengths).collect();
+    lengths.sort_unstable();
+    let [median, nine_tenths] = [0.5, 0.9].map(|part| functions::quantile(&lengths, part));
+    println!(
+        "{} functions: median {median} lines, 90 % {nine_tenths}, 99 % {}, longest {}",
+        lengths.len(),
+        functions::quantile(&lengths, 0.99),
+        lengths.last().copied().unwrap_or(0)
+    );
+    assert!(median <= 7 && nine_tenths <= 23, "median {median}, 90 % {nine_tenths}");
 }

@@ -1,0 +1,16 @@
+//! Faults that are known and may only become fewer. Each list goes when it is empty.
+
+/// Modules in circles.
+pub(crate) const MODULES_IN_CIRCLES: usize = 296;
+
+/// Doc comments that do not begin with their subject.
+pub(crate) const DOC_STARTS: usize = 882;
+
+/// Type names that stand more than once.
+pub(crate) const REPEATED_TYPES: &[&str] = &[];
+
+/// Files above 500 lines.
+pub(crate) const FILES_ABOVE_500: usize = 6;
+
+/// Files above 400 lines; the end is 5.
+pub(crate) const FILES_ABOVE_400: usize = 14;
