@@ -23,11 +23,11 @@ use self::{
     desk::Desk,
     job::{Record, json},
 };
+use crate::store::{Store, StoreError};
 use crate::{
     http::{ApiError, ProgramBody},
     keys::hexadecimal,
     limits::ServeLimits,
-    store::{Store, StoreError},
 };
 
 /// Random bytes of an id.

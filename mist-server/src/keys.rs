@@ -107,14 +107,14 @@ fn bytes(hexadecimal: &str) -> Option<[u8; 32]> {
 /// # Errors
 ///
 /// If the system has no random numbers.
-pub(crate) fn random() -> Result<String, getrandom::Error> {
+pub fn random() -> Result<String, getrandom::Error> {
     let mut bytes = [0; BYTES];
     getrandom::fill(&mut bytes)?;
     Ok(PREFIX.to_owned() + &hexadecimal(&bytes))
 }
 
 /// The line of the file of keys for `key`.
-pub(crate) fn line(name: &str, scopes: &str, key: &str) -> String {
+pub fn line(name: &str, scopes: &str, key: &str) -> String {
     format!("{name} {scopes} {}", hexadecimal(&Sha256::digest(key)))
 }
 

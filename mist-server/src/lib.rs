@@ -1,26 +1,17 @@
-//! The command line `mist` and the HTTP service behind `mist serve`.
+//! The HTTP service behind `mist serve`.
 //!
-//! This is the only crate that knows terminals, sockets and the file system, and the only one
-//! that starts threads.
+//! It computes tables and evaluations of materials for renderers, and runs programs as jobs. What
+//! it keeps outlives it in one file. It knows no arguments and no terminal.
 
-mod cli;
 mod compute;
-mod disk;
-mod interrupt;
 mod jobs;
-mod keys;
 mod limits;
 mod memory;
-mod products;
-mod progress;
-mod registry;
-mod report;
-mod results;
-mod shard;
+mod service;
 mod store;
-mod wanted;
 
 pub mod http;
+pub mod keys;
 
-pub use cli::main;
 pub use limits::ServeLimits;
+pub use service::{ServeError, ServeOptions, serve};

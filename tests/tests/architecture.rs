@@ -58,10 +58,29 @@ const RULES: &[Rule] = &[
         knows: &[],
     },
     Rule {
+        package: "mist-runner",
+        uses: &["mist-engine", "mist-format", "rise-bridge", "scattering", "spectra"],
+        knows: &[Files],
+    },
+    Rule {
         package: "mist-server",
         uses: &[
             "mist-engine",
             "mist-format",
+            "mist-runner",
+            "rise-bridge",
+            "scattering",
+            "spectra",
+        ],
+        knows: &[Files, Terminals, Sockets, Threads],
+    },
+    Rule {
+        package: "mist-cli",
+        uses: &[
+            "mist-engine",
+            "mist-format",
+            "mist-runner",
+            "mist-server",
             "pictures",
             "preview",
             "rise-bridge",

@@ -5,6 +5,7 @@ use axum::{
     http::{Uri, request::Parts},
 };
 use mist_engine::material::{lobes::View, query::ColourNames, table::TableRequest};
+use mist_runner::table_query::TableQuery;
 use rise_bridge::write::Style;
 use serde::Deserialize;
 use utoipa::IntoParams;
@@ -13,7 +14,7 @@ use super::{
     error::{ApiError, Limit},
     renderer,
 };
-use crate::{limits::ServeLimits, wanted::Wanted};
+use crate::limits::ServeLimits;
 
 /// The keys of a query; all have defaults but the directions.
 #[derive(Clone, Debug, Default, Deserialize, IntoParams)]
@@ -123,7 +124,7 @@ impl Asked {
     }
 
     /// The table of the grid or of the patches in the query.
-    pub(super) fn wanted(&self) -> Result<Wanted, ApiError> {
+    pub(super) fn wanted(&self) -> Result<TableQuery, ApiError> {
         if let Some(patches) = &self.patches {
             return Ok(self.wanted_at(patches.replace(';', "\n")));
         }
@@ -136,12 +137,12 @@ impl Asked {
             let message = "the query names a grid by thetai, thetas and phis, or patches";
             return Err(ApiError::Query(message.into()));
         }
-        Ok(Wanted { grid: Some(axes.join(",")), ..self.everything_but_directions() })
+        Ok(TableQuery { grid: Some(axes.join(",")), ..self.everything_but_directions() })
     }
 
     /// The table of the patches in `rows`, one per line.
-    pub(super) fn wanted_at(&self, rows: String) -> Wanted {
-        Wanted { patches: Some(rows), ..self.everything_but_directions() }
+    pub(super) fn wanted_at(&self, rows: String) -> TableQuery {
+        TableQuery { patches: Some(rows), ..self.everything_but_directions() }
     }
 
     /// The same for single directions.
@@ -157,8 +158,8 @@ impl Asked {
         Ok(View { wavelengths, settings, incident, basis, turn })
     }
 
-    fn everything_but_directions(&self) -> Wanted {
-        Wanted {
+    fn everything_but_directions(&self) -> TableQuery {
+        TableQuery {
             grid: None,
             patches: None,
             patch: self.patch.clone(),

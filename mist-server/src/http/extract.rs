@@ -5,13 +5,13 @@ use axum::{
     extract::{FromRequest, FromRequestParts, Request},
     http::{StatusCode, request::Parts},
 };
+use mist_runner::files::decode;
 use serde::de::DeserializeOwned;
 
 use super::{
     App,
     error::{ApiError, Limit},
 };
-use crate::disk::decode;
 
 /// The named parts of the address.
 pub(super) struct Path<T>(pub(super) T);

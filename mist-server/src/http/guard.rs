@@ -14,7 +14,8 @@ use axum::{
 };
 
 use super::{App, error::ApiError, listen::Peer};
-use crate::{keys::Scope, memory::Reserved};
+use crate::keys::Scope;
+use crate::memory::Reserved;
 
 /// The header with the number of a request.
 const REQUEST_ID: &str = "x-request-id";

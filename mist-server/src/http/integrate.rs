@@ -13,6 +13,7 @@ use mist_engine::{
         table::{self, TableRequest},
     },
 };
+use mist_runner::products::Product;
 use rise_bridge::write;
 use serde::Deserialize;
 use utoipa::ToSchema;
@@ -28,7 +29,6 @@ use super::{
     schema,
     table::memory_of,
 };
-use crate::products::Product;
 
 /// Solid angles as JSON.
 #[derive(Deserialize, ToSchema)]

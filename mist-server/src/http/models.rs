@@ -5,11 +5,11 @@ use axum::{
     http::header,
     response::{IntoResponse, Response},
 };
+use mist_runner::registry;
 use scattering::spec;
 use serde_json::Value;
 
 use super::{error::ApiError, extract::Path, problem::Problems};
-use crate::registry;
 
 /// Every class of model and of what models are made of, by family.
 #[utoipa::path(

@@ -8,6 +8,7 @@ use axum::{
 };
 use mist_engine::{Failure, Files, Job, MemoryFiles, Options, compile};
 use mist_format::program::count_tokens;
+use mist_runner::files::decode;
 use scattering::Mode;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -17,7 +18,7 @@ use super::{
     error::{ApiError, Limit},
     extract::Text,
 };
-use crate::{disk::decode, limits::ServeLimits};
+use crate::limits::ServeLimits;
 
 /// Kinds of bodies that are the text of a program, or JSON: what simple clients send.
 const TEXTS: [&str; 3] = ["text/", "application/octet-stream", "application/x-www-form-urlencoded"];

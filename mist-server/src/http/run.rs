@@ -12,6 +12,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use mist_engine::Control;
+use mist_runner::results::Results;
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -22,7 +23,8 @@ use super::{
     problem::{Found, Problems},
     program::ProgramBody,
 };
-use crate::{jobs::MeasuredSink, limits::ServeLimits, results::Results};
+use crate::jobs::MeasuredSink;
+use crate::limits::ServeLimits;
 
 /// Run a program with its data files; the answer is its table: text as the program writes it,
 /// CSV, or JSON.

@@ -14,11 +14,10 @@ use super::{
 use crate::{
     compute::Compute,
     jobs::Jobs,
-    keys::Keys,
-    limits::ServeLimits,
     memory::Memory,
     store::{Store, StoreError},
 };
+use crate::{keys::Keys, limits::ServeLimits};
 
 /// Materials at the wavelengths of a query that are kept ready.
 const READY: usize = 64;

@@ -10,6 +10,7 @@ use mist_engine::material::{
     MaterialError,
     table::{self, TableRequest},
 };
+use mist_runner::products::Product;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
@@ -21,7 +22,6 @@ use super::{
     file::Asker,
     problem::Problems,
 };
-use crate::products::Product;
 
 /// A table of a material.
 #[derive(Deserialize, IntoParams)]

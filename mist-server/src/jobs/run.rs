@@ -7,13 +7,11 @@ use std::{
 
 use axum::http::StatusCode;
 use mist_engine::{Control, Failure, OutputStream, RunSummary, Sink, compile};
+use mist_runner::products::Product;
 use rise_bridge::write::Style;
 
 use super::{Job, MeasuredSink, Office, State, ledger::Ledger};
-use crate::{
-    http::{ApiError, Problem, ProgramBody},
-    products::Product,
-};
+use crate::http::{ApiError, Problem, ProgramBody};
 
 /// Runs `job` to its end, or until the service stops.
 pub(super) fn run(office: &Office, job: &Job) {

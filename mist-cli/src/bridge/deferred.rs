@@ -1,0 +1,84 @@
+//! `mist bridge --deferred`: scenes of geometry alone, and pictures from their renders.
+
+use ::preview::{Film, Polarization, brightest, picture};
+use mist_engine::material::query::{self, ColourNames};
+use mist_runner::files::DiskFiles;
+use rise_bridge::{
+    export::ExportError,
+    rise::deferred::{self, Lit},
+};
+use spectra::{ColourPlan, Grid};
+
+use super::{BridgeArgs, Stop, render, save, save_image};
+use crate::{
+    material::{not_exported, refused},
+    preview, print,
+    source::Source,
+    watch::watched,
+};
+
+/// Writes the scenes, and the pictures if their renders are there or wanted.
+pub(super) fn deferred(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
+    let filter = preview::filter(&args.filter)?;
+    let lit = args.lit()?;
+    let renderer = args.render.then(render::Renderer::of_environment).transpose()?;
+    let stem = source.stem();
+    let files = DiskFiles::beside(&args.scene).shared();
+    let plan = deferred::plan(&source.text, &stem, &*files, args.derive, args.finer);
+    let plan = plan.map_err(not_exported)?;
+    save(&args.out, &plan.files)?;
+    for reason in &plan.left {
+        print(&format!("left black: {reason}\n"))?;
+    }
+    for scene in plan.scenes() {
+        let image = scene.replace(".RISEscene", ".exr");
+        match &renderer {
+            // Nothing may be seen from one side.
+            Some(rise) => print(&rise.render(&args.out, scene, &[image], render::read)?)?,
+            None => print(&format!("{}\n", args.out.join(scene).display()))?,
+        }
+    }
+    if !(args.render || args.stack) {
+        return Ok(());
+    }
+    let image = |name: &str| {
+        render::read(&args.out.join(name)).map_err(|problem| ExportError::refused(name, problem))
+    };
+    let film = watched(args.threads, &stem, |control| plan.film(image, &files, &lit, control))?;
+    let film = film.map_err(not_exported)?;
+    save_picture(args, &film, &lit, &format!("{stem}_deferred"), Polarization::All)?;
+    if filter != Polarization::All {
+        save_picture(args, &film, &lit, &format!("{stem}_deferred_filter"), filter)?;
+    }
+    Ok(())
+}
+
+impl BridgeArgs {
+    fn lit(&self) -> Result<Lit, Stop> {
+        let names = ColourNames::of_factors(&self.illuminant);
+        Ok(Lit {
+            wavelengths: query::nodes("wavelengths", &self.wavelengths).map_err(refused)?,
+            settings: names.settings(None).map_err(refused)?,
+            light: query::stokes(&self.incident).map_err(refused)?,
+            light_basis: self.incident_basis.into(),
+        })
+    }
+}
+
+fn save_picture(
+    args: &BridgeArgs,
+    film: &Film,
+    lit: &Lit,
+    name: &str,
+    filter: Polarization,
+) -> Result<(), Stop> {
+    let failed = |error: &dyn std::fmt::Display| Stop::Failed(format!("{name}: {error}"));
+    let grid = Grid::new(&lit.wavelengths).map_err(|error| failed(&error))?;
+    let plan = ColourPlan::new(&grid, lit.settings.clone()).map_err(|error| failed(&error))?;
+    let image = picture(film, &plan, filter, 1.0).map_err(|error| failed(&error))?;
+    let brightest = brightest(film, filter);
+    for path in save_image(&args.out, name, &image)? {
+        print(&format!("{}: brightest pixel {brightest:.4}\n", path.display()))?;
+    }
+    Ok(())
+}

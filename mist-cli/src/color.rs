@@ -1,0 +1,29 @@
+//! `mist color`: spectra in, XYZ, Lab and RGB out.
+
+use super::{print, source::read_input, stop::Stop};
+
+/// Colours of spectra: one case, or {"illuminants": …, "cases": […]}, as JSON.
+///
+/// A case has `wavelengths` in nm and `values`, or `stokes` with four lists, and an `illuminant`;
+/// the answer has XYZ, the white, chromaticity, Lab, and linear and encoded RGB.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist color < cases.json
+  echo '{\"wavelengths\":[400,500,600,700],\"values\":[0.1,0.2,0.7,0.8],\"illuminant\":\"D65\"}' | mist color")]
+pub(super) struct ColorArgs {
+    /// File with the cases [default: standard input].
+    input: Option<std::path::PathBuf>,
+}
+
+/// Answers the cases.
+pub(super) fn color(args: &ColorArgs) -> Result<(), Stop> {
+    let text = read_input(args.input.as_deref())?;
+    let request = serde_json::from_str(&text)
+        .map_err(|error| Stop::Refused(format!("the input is not JSON: {error}")))?;
+    let response =
+        spectra::case::evaluate(&request).map_err(|error| Stop::Refused(error.to_string()))?;
+    let text = serde_json::to_string(&response)
+        .map_err(|error| Stop::Failed(format!("the answer has no JSON form: {error}")))?;
+    print(&(text + "\n"))
+}

@@ -1,0 +1,57 @@
+//! `mist convert`: old programs and documents of NIST's Windows program become programs.
+
+use std::path::PathBuf;
+
+use mist_format::convert::ConvertError;
+use mist_runner::files::AtomicFile;
+
+use super::{
+    print,
+    stop::{Fate, Stop},
+};
+use crate::report::{self, MessageFormat};
+
+/// Turn a document of NIST's Windows program, or an old program, into a program of today.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist convert coating.mst -o coating.mist
+  mist convert old.mist")]
+pub(super) struct ConvertArgs {
+    /// The document or the program.
+    file: PathBuf,
+    /// File for the program [default: standard output].
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+}
+
+/// Converts the file.
+pub(super) fn convert(args: &ConvertArgs) -> Result<(), Stop> {
+    let name = args.file.display();
+    let bytes = std::fs::read(&args.file)
+        .map_err(|error| Stop::Refused(format!("cannot read {name}: {error}")))?;
+    let text =
+        mist_format::convert::convert(&bytes).map_err(|error| refused(error, args, &bytes))?;
+    match &args.output {
+        None => print(&text),
+        Some(path) => AtomicFile::write(path, &text)
+            .map_err(|error| Stop::Failed(format!("cannot write {}: {error}", path.display()))),
+    }
+}
+
+/// Says why the file cannot be converted, with the places where it is a program.
+fn refused(error: ConvertError, args: &ConvertArgs, bytes: &[u8]) -> Stop {
+    let name = args.file.display().to_string();
+    match &error {
+        ConvertError::Program(found) => {
+            let text = mist_format::decode(bytes);
+            report::tell(found, &name, &text, MessageFormat::Human);
+            Stop::Said(Fate::Refused)
+        }
+        ConvertError::Incomplete { text, found } => {
+            report::tell(found, &format!("{name}, converted"), text, MessageFormat::Human);
+            Stop::Said(Fate::Refused)
+        }
+        ConvertError::Document(_) => Stop::Refused(format!("{name}: {error}")),
+    }
+}

@@ -1,0 +1,39 @@
+//! `mist eval`: Mueller matrices of single geometries.
+
+use std::path::{Path, PathBuf};
+
+use mist_engine::material::eval;
+use mist_runner::files::DiskFiles;
+
+use super::{print, run::mode, source::read_input, stop::Stop};
+use crate::report;
+
+/// Mueller matrices of a model in given directions, as JSON.
+///
+/// The input is {"model": …, "parameters": {…}, "basis": "psps", "geometries": [{"theta_i": …,
+/// "theta_s": …, "phi_s": …, "rotation": …}], "files": {…}} with angles in radians; the answer is
+/// {"mueller": [[16 numbers, row by row], …]} in 1/sr.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist eval < request.json
+  echo '{\"model\":\"Lambertian_BRDF_Model\",\"geometries\":[{\"theta_i\":0.5,\"theta_s\":0.2,\"phi_s\":0}]}' | mist eval")]
+pub(super) struct EvalArgs {
+    /// File with the request [default: standard input].
+    input: Option<PathBuf>,
+    /// Give NIST's numbers, its defects included.
+    #[arg(long)]
+    compat: bool,
+}
+
+/// Answers the request.
+pub(super) fn eval(args: &EvalArgs) -> Result<(), Stop> {
+    let text = read_input(args.input.as_deref())?;
+    let beside = args.input.as_deref().unwrap_or(Path::new(""));
+    let files = DiskFiles::beside(beside).shared();
+    let response = eval::eval(&text, mode(args.compat), Some(files))
+        .map_err(|error| Stop::Refused(report::with_help(&error.to_string(), error.help())))?;
+    let text = serde_json::to_string(&response)
+        .map_err(|error| Stop::Failed(format!("the answer has no JSON form: {error}")))?;
+    print(&(text + "\n"))
+}

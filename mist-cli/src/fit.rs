@@ -1,0 +1,158 @@
+//! `mist fit`: variables of a program from measured values.
+
+use std::{collections::BTreeMap, path::PathBuf};
+
+use mist_engine::{
+    Control,
+    fit::{self, Fit, FitError, FitSettings, MeasuredTable},
+};
+use mist_format::number::general;
+
+use super::{
+    print,
+    source::Source,
+    stop::{Fate, Stop},
+    vary::{self, Vary},
+};
+
+/// Fit variables of a program to measured values.
+///
+/// The variables named after --vary are changed until the outputs of the program come nearest to
+/// the measured ones (least squares, Levenberg–Marquardt). Apertures, loops and everything else
+/// stay what the program says. The measured file is a table like the results of the program: a
+/// line of names, then numbers; columns of loops tell which line of the results a row is about,
+/// columns of outputs hold what was measured, and `sigma(OUTPUT)`, `sigma` or `weight` its
+/// uncertainty.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist fit glass.mist --measured scan.dat --vary s,gain
+  mist fit glass.mist --measured scan.csv --vary s,n --start s=0.2 --bounds s=0.01:1 --json
+
+The intervals are those of Student's t with the scatter of the residuals; with --absolute the
+uncertainties in the file are taken as standard deviations.")]
+pub(super) struct FitArgs {
+    #[command(flatten)]
+    vary: Vary,
+    /// Table of measured values.
+    #[arg(long, value_name = "FILE")]
+    measured: PathBuf,
+    /// Where variables start, in place of the program's values.
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = start)]
+    start: Vec<(String, f64)>,
+    /// The least and the largest value that variables may have.
+    #[arg(long, value_name = "NAME=LOW:HIGH,…", value_delimiter = ',', value_parser = bounds)]
+    bounds: Vec<(String, [f64; 2])>,
+    /// Probability that an interval covers the true value.
+    #[arg(long, value_name = "P", default_value_t = 0.95)]
+    confidence: f64,
+    /// Take the uncertainties in the file as standard deviations, not only as weights.
+    #[arg(long)]
+    absolute: bool,
+    /// Step of the derivatives, relative to the value.
+    #[arg(long, value_name = "STEP", default_value_t = 1e-4)]
+    step: f64,
+    /// Iterations at most.
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    iterations: usize,
+}
+
+fn start(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("must be NAME=VALUE")?;
+    let value = value.trim().parse().map_err(|_| format!("{value:?} is no number"))?;
+    Ok((name.trim().to_owned(), value))
+}
+
+fn bounds(text: &str) -> Result<(String, [f64; 2]), String> {
+    let (name, range) = text.split_once('=').ok_or("must be NAME=LOW:HIGH")?;
+    let (low, high) = range.split_once(':').ok_or("must be NAME=LOW:HIGH")?;
+    let number = |text: &str| text.trim().parse().map_err(|_| format!("{text:?} is no number"));
+    Ok((name.trim().to_owned(), [number(low)?, number(high)?]))
+}
+
+/// Fits and tells.
+pub(super) fn fit(args: &FitArgs) -> Result<(), Stop> {
+    let source = Source::read(&args.vary.program)?;
+    let program = args.vary.open(&source)?;
+    let table = Source::read(&args.measured)?;
+    let measured = MeasuredTable::parse(&table.text, program.titles(), program.headers())
+        .map_err(|error| Stop::Refused(format!("{}: {error}", table.name())))?;
+    let settings = FitSettings {
+        start: args.start.iter().cloned().collect::<BTreeMap<_, _>>(),
+        bounds: args.bounds.iter().cloned().collect(),
+        step: args.step,
+        confidence: args.confidence,
+        absolute: args.absolute,
+        iterations: args.iterations,
+    };
+    let run = |control: &Control| fit::fit(&program, &measured, &settings, control);
+    match args.vary.watch("fit", run)? {
+        Ok(found) if args.vary.json => print(&vary::json(&found)?),
+        Ok(found) => print(&describe(&found)),
+        Err(error) => Err(stop(&error, &source, args)),
+    }
+}
+
+fn stop(error: &FitError, source: &Source, args: &FitArgs) -> Stop {
+    if let Some(diagnostics) = error.diagnostics() {
+        vary::tell(diagnostics, source);
+        return Stop::Said(Fate::Refused);
+    }
+    match error {
+        FitError::MeasuredTable(error) => {
+            Stop::Refused(format!("{}: {error}", args.measured.display()))
+        }
+        FitError::Setting { .. } | FitError::TooFewData { .. } => Stop::Refused(error.to_string()),
+        other => Stop::Failed(other.to_string()),
+    }
+}
+
+/// The numbers for people.
+fn describe(found: &Fit) -> String {
+    let width = found.parameters.iter().map(|p| p.name.chars().count()).max().unwrap_or(0);
+    let percent = general(100.0 * found.confidence, 4);
+    let mut text = String::new();
+    for parameter in &found.parameters {
+        let name = format!("{:width$}", parameter.name);
+        let value = general(parameter.value, 7);
+        text += &match (parameter.standard_error, parameter.interval) {
+            (Some(error), Some([low, high])) => format!(
+                "{name} = {value} ± {}   {percent} %: {} … {}   (start {})\n",
+                general(error, 3),
+                general(low, 6),
+                general(high, 6),
+                general(parameter.start, 6),
+            ),
+            _ => format!("{name} = {value}   at its bound: no interval\n"),
+        };
+    }
+    if found.parameters.len() > 1 {
+        text += "correlation\n";
+        for (parameter, row) in found.parameters.iter().zip(&found.correlation) {
+            let row: Vec<String> = row.iter().map(|c| format!("{c:8.4}")).collect();
+            text += &format!("  {:width$} {}\n", parameter.name, row.join(""));
+        }
+    }
+    let residuals = &found.residuals;
+    let (row, output) = &residuals.largest_at;
+    text += &format!(
+        "residuals: rms {}, chi2 {} with {} degrees of freedom ({} each), largest {} standard \
+         deviations (row {row}, {output}){}\n",
+        general(residuals.rms, 4),
+        general(residuals.chi_squared, 5),
+        residuals.degrees_of_freedom,
+        general(residuals.reduced_chi_squared, 4),
+        general(residuals.largest, 3),
+        residuals
+            .correlation
+            .map_or_else(String::new, |c| format!(", correlation {}", general(c, 6))),
+    );
+    text += &format!(
+        "{} data, {} iterations, {} runs of the program\n",
+        residuals.data, found.iterations, found.runs
+    );
+    if !found.ignored.is_empty() {
+        text += &format!("not used: column {}\n", found.ignored.join(", column "));
+    }
+    text
+}

@@ -1,0 +1,116 @@
+//! The program `mist`. Each command has a file of its own with its arguments, help and work.
+//!
+//! Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.
+
+mod bridge;
+mod check;
+mod color;
+mod compare_spectra;
+mod convert;
+mod diff;
+mod eval;
+mod export;
+mod fit;
+mod fmt;
+mod interrupt;
+mod key;
+mod material;
+mod merge;
+mod models;
+mod preview;
+mod progress;
+mod report;
+mod run;
+mod serve;
+mod source;
+mod stop;
+mod table;
+mod tolerance;
+mod vary;
+mod watch;
+
+use std::{io::Write, process::ExitCode};
+
+use clap::{Parser, Subcommand};
+
+use stop::Stop;
+
+/// From the physics of a material to its colour in a renderer.
+#[derive(Parser)]
+#[command(name = "mist", version, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  mist run paint.mist                 run a program, write its tables here
+  mist check paint.mist               look for mistakes without running
+  mist models Facet_BRDF_Model        what a model is and which parameters it has
+  mist table paint.json --grid thetai=0:10:80,thetas=0:10:80,phis=0:20:180 --lambda 400:20:700 -o paint.mtab
+  mist export gold.json --wavelengths 450,500,550,600,650 -o gold.pbsdf
+  mist diff test.exr reference.exr    which part of a difference an observer sees
+  mist serve                          answer renderers on http://127.0.0.1:8650
+
+Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.";
+
+#[derive(Subcommand)]
+enum Command {
+    Run(run::RunArgs),
+    Merge(merge::MergeArgs),
+    Check(check::CheckArgs),
+    Models(models::ModelsArgs),
+    Table(Box<table::TableArgs>),
+    Preview(Box<preview::PreviewArgs>),
+    Export(export::ExportArgs),
+    Bridge(bridge::BridgeArgs),
+    Eval(eval::EvalArgs),
+    Color(color::ColorArgs),
+    Fmt(fmt::FmtArgs),
+    Convert(convert::ConvertArgs),
+    Diff(diff::DiffArgs),
+    CompareSpectra(compare_spectra::CompareSpectraArgs),
+    Fit(Box<fit::FitArgs>),
+    Tolerance(tolerance::ToleranceArgs),
+    Serve(Box<serve::ServeArgs>),
+    Key(key::KeyArgs),
+}
+
+/// Runs the command that the arguments of the process name.
+fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Run(args) => run::run(args),
+        Command::Merge(args) => merge::merge(&args),
+        Command::Check(args) => check::check(&args),
+        Command::Models(args) => models::models(&args),
+        Command::Color(args) => color::color(&args),
+        Command::Fmt(args) => fmt::fmt(&args),
+        Command::Convert(args) => convert::convert(&args),
+        Command::Diff(args) => diff::diff(&args),
+        Command::CompareSpectra(args) => compare_spectra::compare_spectra(&args),
+        Command::Fit(args) => fit::fit(&args),
+        Command::Tolerance(args) => tolerance::tolerance(&args),
+        Command::Table(args) => table::table(&args),
+        Command::Preview(args) => preview::preview(&args),
+        Command::Export(args) => export::export(&args),
+        Command::Bridge(args) => bridge::bridge(&args),
+        Command::Eval(args) => eval::eval(&args),
+        Command::Serve(args) => serve::serve(&args),
+        Command::Key(args) => key::key(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(stop) => stop.exit(),
+    }
+}
+
+/// Writes `text` to standard output.
+fn print(text: &str) -> Result<(), Stop> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        // Whoever reads has read enough.
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        other => other.map_err(|error| Stop::Failed(format!("cannot write the output: {error}"))),
+    }
+}

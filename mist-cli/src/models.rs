@@ -1,0 +1,86 @@
+//! `mist models`: what the registry knows.
+
+use scattering::{Class, Family, spec};
+
+use super::{print, stop::Stop};
+
+mod json;
+mod markdown;
+mod text;
+
+/// List the models and what they are made of, or describe one.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist models
+  mist models Shadowed_Facet_BRDF_Model
+  mist models Gaussian_PSD_Function --json")]
+pub(super) struct ModelsArgs {
+    /// A model, or a class that models are made of.
+    name: Option<String>,
+    /// As JSON.
+    #[arg(long, conflicts_with = "markdown")]
+    json: bool,
+    /// The manual page docs/models.md.
+    #[arg(long, conflicts_with = "name")]
+    markdown: bool,
+}
+
+/// Prints the list or the description.
+pub(super) fn models(args: &ModelsArgs) -> Result<(), Stop> {
+    let Some(name) = &args.name else {
+        return print(&match (args.json, args.markdown) {
+            (true, _) => json::list(),
+            (_, true) => markdown::manual(),
+            _ => text::list(),
+        });
+    };
+    let class = find(name)?;
+    print(&if args.json { json::class(class) } else { text::class(class) })
+}
+
+fn find(name: &str) -> Result<&'static Class, Stop> {
+    spec::find_class(name).ok_or_else(|| {
+        let all = Family::ALL.iter().flat_map(|family| family.classes()).map(|class| class.name);
+        let hint = mist_format::suggestion::did_you_mean(name, all);
+        let hint = hint.unwrap_or_else(|| "`mist models` lists all".into());
+        Stop::Refused(format!("there is no model called {name:?}: {hint}"))
+    })
+}
+
+/// Title of a family's list.
+fn title(family: Family) -> &'static str {
+    match family {
+        Family::Brdf => "BRDF models",
+        Family::Slope => "Slope distributions",
+        Family::Shadow => "Shadowing functions",
+        Family::Psd => "Power spectral densities",
+        Family::Stack => "Film stacks",
+        Family::Reflectance => "Reflectances",
+        Family::Grating => "Gratings",
+        Family::CrossGrating => "Crossed gratings",
+        Family::Shape => "Shapes of bodies of revolution",
+        Family::Layer => "Layers of coatings",
+        Family::Phase => "Phase functions",
+        Family::PolarizedPhase => "Polarized phase functions",
+        Family::Scatterer => "Free-space scatterers",
+        Family::Distribution => "Distributions of a diameter",
+        Family::VolumeSize => "Particle sizes per volume",
+        Family::SurfaceSize => "Particle sizes per area",
+    }
+}
+
+/// What a parameter holds, for people.
+fn kind(kind: spec::Kind) -> String {
+    match kind {
+        spec::Kind::Number => "number".into(),
+        spec::Kind::Integer => "integer".into(),
+        spec::Kind::Text => "text".into(),
+        spec::Kind::File => "file".into(),
+        spec::Kind::Formula => "formula of x".into(),
+        spec::Kind::Index => "index".into(),
+        spec::Kind::Table => "table".into(),
+        spec::Kind::Films => "films".into(),
+        spec::Kind::Member(_, base) => base.into(),
+    }
+}

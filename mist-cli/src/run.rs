@@ -1,0 +1,231 @@
+//! `mist run`: programs in, tables out.
+
+use std::{
+    fmt::Write as _,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use mist_engine::{Control, Failure, Job, Options, RunSummary, compile};
+use mist_runner::{
+    files::DiskFiles,
+    run::{RunError, ShardRun, WrittenFile, run_shard, run_to_files},
+    shard::Shard,
+};
+use scattering::Mode;
+
+use super::{
+    print,
+    source::Source,
+    stop::{Fate, Stop},
+};
+use crate::{
+    interrupt,
+    progress::Progress,
+    report::{self, MessageFormat},
+};
+
+/// Run programs and write their tables.
+///
+/// Results, listing, samples and the files of the section COLOR are written into the working
+/// folder, or into --out, under the names the program gives them; a file appears when it is whole.
+/// Data files are looked up in the working folder, beside the program, and along SCATMECH.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist run paint.mist
+  mist run --compat --out nist old/*.mist
+  mist run --job glossy --threads 4 paint.mist
+  mist run --shard 3/16 paint.mist    the third of 16 parts; see `mist merge`")]
+pub(super) struct RunArgs {
+    /// Programs; with --compat a second name that is no file names the job, as NIST's program
+    /// has it.
+    #[arg(required = true)]
+    programs: Vec<PathBuf>,
+    /// Name of the job: files that the program does not name are called after it [default: the
+    /// program's name].
+    #[arg(long, value_name = "NAME")]
+    job: Option<String>,
+    /// Give NIST's tables, its defects included.
+    #[arg(long)]
+    compat: bool,
+    /// Threads [default: one per processor]; results do not depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Folder for the results.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    out: PathBuf,
+    /// Run part K of N of the steps, into JOB.K-of-N; the same command goes on after an
+    /// interruption. `mist merge` puts the parts together.
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
+    /// Seed of the Monte Carlo modes.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Who reads the diagnostics.
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    message_format: MessageFormat,
+}
+
+impl RunArgs {
+    /// NIST's program takes a second argument for the name of the job.
+    fn take_job_name(&mut self) {
+        let [_, second] = &self.programs[..] else { return };
+        if self.compat && self.job.is_none() && !second.exists() {
+            self.job = Some(second.to_string_lossy().into_owned());
+            self.programs.truncate(1);
+        }
+    }
+}
+
+/// Runs the programs one after the other; each uses all threads.
+pub(super) fn run(mut args: RunArgs) -> Result<(), Stop> {
+    args.take_job_name();
+    let args = &args;
+    fs::create_dir_all(&args.out).map_err(|error| {
+        Stop::Failed(format!("cannot make the folder {}: {error}", args.out.display()))
+    })?;
+    if args.job.is_some() && args.programs.len() > 1 {
+        return Err(Stop::Refused("--job names one job, but there are several programs".into()));
+    }
+    let pool = pool(args.threads)?;
+    let cancel = interrupt::flag();
+    let runs = || -> Result<Vec<Fate>, Stop> {
+        let mut fates = Vec::new();
+        for program in &args.programs {
+            let control = Control { cancel: cancel.clone(), progress: None };
+            fates.push(run_one(args, program, control)?);
+            if cancel.load(std::sync::atomic::Ordering::Relaxed) {
+                break;
+            }
+        }
+        Ok(fates)
+    };
+    let fates = pool.install(runs)?;
+    if args.programs.len() > 1 {
+        print(&total(&fates, args.programs.len()))?;
+    }
+    fates.into_iter().max().unwrap_or(Fate::Good).done()
+}
+
+/// Threads for a run.
+pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Stop> {
+    if threads == Some(0) {
+        return Err(Stop::Refused("--threads must be 1 or more".into()));
+    }
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
+    builder.build().map_err(|error| Stop::Failed(format!("cannot start threads: {error}")))
+}
+
+/// Sound, or as NIST computes it.
+pub(super) fn mode(compat: bool) -> Mode {
+    if compat { Mode::Compat } else { Mode::Sound }
+}
+
+fn run_one(args: &RunArgs, program: &Path, mut control: Control) -> Result<Fate, Stop> {
+    let source = match Source::program(program) {
+        Ok(source) => source,
+        Err(Stop::Refused(message)) => {
+            report::say(&format!("error: {message}"));
+            return Ok(Fate::Refused);
+        }
+        Err(stop) => return Err(stop),
+    };
+    let job = args.job.clone().unwrap_or_else(|| source.stem());
+    let options = Options { mode: mode(args.compat), job, seed: args.seed, ..Options::default() };
+    let tell = |diagnostics: &[_]| {
+        report::tell(diagnostics, &source.name(), &source.text, args.message_format);
+    };
+    let job = match compile(&source.text, DiskFiles::beside(program).shared(), &options) {
+        Ok(job) => job,
+        Err(diagnostics) => {
+            tell(&diagnostics);
+            return Ok(Fate::Refused);
+        }
+    };
+    let progress = Progress::new(&options.job);
+    let bar = progress.clone();
+    control.progress = Some(Box::new(move |part| bar.set(part)));
+    let done = match args.shard {
+        Some(shard) => run_shard(&job, (&options, &source.text), shard, &args.out, &control)
+            .map(|run| (describe_shard(&options.job, shard, &run, &job), run.summary)),
+        None => run_to_files(&job, &args.out, &control)
+            .map(|(summary, files)| (describe(&options.job, &summary, &files), summary)),
+    };
+    progress.finish();
+    match done {
+        Ok((said, summary)) => {
+            note(&source.name(), &summary);
+            print(&said)?;
+            Ok(Fate::Good)
+        }
+        Err(RunError::Engine(Failure::Program(diagnostics))) => {
+            tell(&diagnostics);
+            Ok(Fate::Refused)
+        }
+        Err(RunError::Engine(Failure::Step { step, fault })) => {
+            tell(&[fault.note(format!("in step {}", step + 1))]);
+            Ok(Fate::Failed)
+        }
+        Err(error) => {
+            report::say(&format!("error: {}: {error}", source.name()));
+            Ok(if error.is_refusal() { Fate::Refused } else { Fate::Failed })
+        }
+    }
+}
+
+/// What a finished run says.
+fn describe(job: &str, summary: &RunSummary, files: &[WrittenFile]) -> String {
+    let mut text = format!(
+        "{job}: {} step{}, {:.3e} evaluations, {:.2} s\n",
+        summary.steps,
+        if summary.steps == 1 { "" } else { "s" },
+        summary.evaluations,
+        summary.seconds,
+    );
+    for file in files {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {:<14} {}", file.title, shown(&file.path).display());
+    }
+    text
+}
+
+/// What a finished shard says.
+fn describe_shard(name: &str, shard: Shard, run: &ShardRun, job: &Job) -> String {
+    let ShardRun { summary, steps, steps_before, job_steps, .. } = run;
+    let mut text = format!(
+        "{name}: shard {shard}: {steps} of {job_steps} steps, {steps_before} of them done before, {:.3e} evaluations, {:.2} s\n",
+        summary.evaluations, summary.seconds,
+    );
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "  {:<14} {}", "shard", shown(&run.path).display());
+    if job.colour().is_some() {
+        text.push_str(
+            "  note: shards have no colours; see `mist table --from` for the merged table\n",
+        );
+    }
+    text
+}
+
+/// A path without the working folder before it.
+fn shown(path: &Path) -> &Path {
+    path.strip_prefix(".").unwrap_or(path)
+}
+
+fn note(file: &str, summary: &RunSummary) {
+    for notice in &summary.met {
+        report::say(&format!("note: {file}: {notice}"));
+    }
+}
+
+/// One line for many programs.
+fn total(fates: &[Fate], programs: usize) -> String {
+    let count = |fate| fates.iter().filter(|each| **each == fate).count();
+    format!(
+        "{programs} programs: {} good, {} failed, {} refused, {} not started\n",
+        count(Fate::Good),
+        count(Fate::Failed),
+        count(Fate::Refused),
+        programs - fates.len(),
+    )
+}

@@ -1,0 +1,179 @@
+//! `mist table`: the colour table of a material, or of a table that NIST's program wrote.
+
+use std::path::{Path, PathBuf};
+
+use mist_engine::{
+    colour::ColourTable,
+    material::{
+        query::{self, ColourNames},
+        results::{self, Columns},
+        table,
+    },
+};
+use mist_runner::{files::DiskFiles, products::Product, table_query::TableQuery};
+use rise_bridge::write::Style;
+
+use super::{
+    material::{prepared, refused},
+    print,
+    source::Source,
+    stop::Stop,
+    watch::watched,
+};
+
+/// Make the colour table of a material, or colour a table of results.
+///
+/// A MATERIAL.json is {"model": …, "parameters": {…}, "files": {…}}; of a program the model of
+/// its first step counts. The extension of the output tells its form: .mtab, .mspd, .json, .svg.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist table paint.json --grid thetai=0:10:80,thetas=0:10:80,phis=0:20:180 --lambda 400:20:700 -o paint.mtab
+  mist table paint.mist --patches patches.lst --lambda 360:10:750 --stokes -o paint.mtab
+  mist table --from results.dat --wavelength wl:nm --value f0,f1,f2,f3 -o paint.mtab")]
+pub(super) struct TableArgs {
+    /// The material, or a program.
+    #[arg(required_unless_present = "from", conflicts_with = "from")]
+    material: Option<PathBuf>,
+    /// Colour this table of results, written by a MIST program.
+    #[arg(long, value_name = "RESULTS", requires = "wavelength", requires = "value")]
+    from: Option<PathBuf>,
+    /// Column of the wavelength and its unit, such as wl:nm or wl:um.
+    #[arg(long, value_name = "COLUMN:UNIT")]
+    wavelength: Option<String>,
+    /// Column of the spectrum, or four columns for I, Q, U, V.
+    #[arg(long, value_name = "COLUMNS")]
+    value: Option<String>,
+    /// Nodes in degrees: thetai=0:2:90,thetas=0:2:90,phis=0:2:180.
+    #[arg(long, value_name = "AXES", conflicts_with = "patches")]
+    grid: Option<String>,
+    /// Solid angle of a node: point, cell, ring, or circle:ALPHA in degrees.
+    #[arg(long, default_value = "point")]
+    patch: String,
+    /// File with one solid angle per line: thetai thetas phis circle 2 | ring 10 12 |
+    /// polygon t p t p …, in degrees.
+    #[arg(long, value_name = "FILE")]
+    patches: Option<PathBuf>,
+    /// Wavelengths in nm.
+    #[arg(long, default_value = "360:5:830", value_name = "FIRST:STEP:LAST")]
+    lambda: String,
+    /// CIE name, colour temperature, D(temperature), or a file.
+    #[arg(long, default_value = "D65")]
+    illuminant: String,
+    /// Colour-matching functions.
+    #[arg(long, default_value = "CIE1931_2")]
+    observer: String,
+    /// RGB space.
+    #[arg(long, default_value = "sRGB")]
+    space: String,
+    /// none, Bradford, CAT02, CAT16 or VonKries.
+    #[arg(long, default_value = "Bradford")]
+    adaptation: String,
+    /// brdf (1/sr) or factor (pi times it).
+    #[arg(long, default_value = "brdf")]
+    quantity: String,
+    /// A filter before the eye, such as linear(1.57); repeatable.
+    #[arg(long, value_name = "FILTER")]
+    filter: Vec<String>,
+    /// Incident Stokes vector.
+    #[arg(long, default_value = "1,0,0,0", value_name = "I,Q,U,V")]
+    incident: String,
+    /// psps, xyxy or plane.
+    #[arg(long, default_value = "psps")]
+    basis: String,
+    /// Give Q, U and V too, for filters at any angle.
+    #[arg(long)]
+    stokes: bool,
+    /// Significant digits: 9 bring back every f32, 17 every f64.
+    #[arg(long, default_value_t = 9)]
+    digits: usize,
+    /// Give the columns X Y Z too.
+    #[arg(long)]
+    xyz: bool,
+    /// Give NIST's numbers, its defects included.
+    #[arg(long)]
+    compat: bool,
+    /// Threads [default: one per processor].
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// The file to write.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+/// Makes the table and writes it.
+pub(super) fn table(args: &TableArgs) -> Result<(), Stop> {
+    let product = Product::of_name(&args.output.to_string_lossy()).ok_or_else(|| {
+        Stop::Refused("the name of the output ends with .mtab, .mspd, .json or .svg".into())
+    })?;
+    if !(1..=17).contains(&args.digits) {
+        return Err(Stop::Refused(format!("--digits is from 1 to 17, not {}", args.digits)));
+    }
+    let table = match &args.from {
+        Some(from) => args.coloured(from)?,
+        None => args.computed()?,
+    };
+    let style = Style { digits: args.digits, xyz: args.xyz };
+    let written = product
+        .save(&table, &args.output, style)
+        .map_err(|error| Stop::Failed(error.to_string()))?;
+    for path in written {
+        print(&format!("{}: {} rows\n", path.display(), table.rows.len()))?;
+    }
+    Ok(())
+}
+
+impl TableArgs {
+    fn colours(&self) -> ColourNames {
+        ColourNames {
+            illuminant: Some(self.illuminant.clone()),
+            observer: Some(self.observer.clone()),
+            space: Some(self.space.clone()),
+            adaptation: Some(self.adaptation.clone()),
+            quantity: Some(self.quantity.clone()),
+            filters: self.filter.clone(),
+        }
+    }
+
+    /// The table of results, coloured.
+    fn coloured(&self, from: &Path) -> Result<ColourTable, Stop> {
+        let source = Source::read(from)?;
+        let (wavelength, value) = (self.wavelength.as_deref(), self.value.as_deref());
+        let columns = Columns::parse(wavelength.unwrap_or_default(), value.unwrap_or_default())
+            .map_err(refused)?;
+        let settings = self.colours().settings(Some(&DiskFiles::beside(from))).map_err(refused)?;
+        let incident = query::stokes(&self.incident).map_err(refused)?;
+        let frame = match self.basis.as_str() {
+            "psps" => "psps",
+            "xyxy" => "xyxy",
+            "plane" => "plane",
+            other => {
+                return Err(Stop::Refused(format!("--basis is psps, xyxy or plane, not {other}")));
+            }
+        };
+        results::table(&source.text, &columns, &source.stem(), &settings, (incident, frame))
+            .map_err(refused)
+    }
+
+    /// The table of a material.
+    fn computed(&self) -> Result<ColourTable, Stop> {
+        let path = self.material.as_deref().unwrap_or(Path::new(""));
+        let source = Source::read(path)?;
+        let prepared = prepared(path, &source, self.compat)?;
+        let patches = self.patches.as_deref().map(Source::read).transpose()?;
+        let wanted = TableQuery {
+            grid: self.grid.clone(),
+            patches: patches.map(|source| source.text),
+            patch: Some(self.patch.clone()),
+            lambda: Some(self.lambda.clone()),
+            incident: Some(self.incident.clone()),
+            basis: Some(self.basis.clone()),
+            stokes: self.stokes,
+            colours: self.colours(),
+        };
+        let files = DiskFiles::beside(path);
+        let request = wanted.request(&source.stem(), Some(&files)).map_err(refused)?;
+        let made = |control: &_| table::table(&prepared, &request, control);
+        watched(self.threads, &source.stem(), made)?.map_err(refused)
+    }
+}

@@ -1,0 +1,88 @@
+//! `mist tolerance`: how far the colours of a program move per unit of its variables.
+
+use mist_engine::{
+    Control, Failure,
+    tolerance::{self, ColourTolerance, ToleranceError},
+};
+use mist_format::number::general;
+
+use super::{
+    print,
+    source::Source,
+    stop::{Fate, Stop},
+    vary::{self, Vary},
+};
+
+/// Tell how far colours move (CIEDE2000) when variables change.
+///
+/// The program needs a section COLOR. For each variable named after --vary it is run at its value
+/// minus and plus --step times the value; the distance of the two colours over the distance of the
+/// two values is how far a colour moves per unit, in every row of the colour table.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  mist tolerance gold.mist --vary sdf.s
+  mist tolerance gold.mist --vary sdf.s,incidentangle --step 0.01 --json")]
+pub(super) struct ToleranceArgs {
+    #[command(flatten)]
+    vary: Vary,
+    /// Step of the differences, relative to the value (absolute for a value of 0).
+    #[arg(long, value_name = "STEP", default_value_t = 1e-3)]
+    step: f64,
+}
+
+/// Computes and tells.
+pub(super) fn tolerance(args: &ToleranceArgs) -> Result<(), Stop> {
+    let source = Source::read(&args.vary.program)?;
+    let program = args.vary.open(&source)?;
+    let run = |control: &Control| tolerance::tolerance(&program, args.step, control);
+    match args.vary.watch("tolerance", run)? {
+        Ok(found) if args.vary.json => print(&vary::json(&found)?),
+        Ok(found) => print(&describe(&found)),
+        Err(ToleranceError::Run { failure: Failure::Program(diagnostics), .. }) => {
+            vary::tell(&diagnostics, &source);
+            Err(Stop::Said(Fate::Refused))
+        }
+        Err(error @ ToleranceError::Run { .. }) => Err(Stop::Failed(error.to_string())),
+        Err(error) => Err(Stop::Refused(format!("{}: {error}", source.name()))),
+    }
+}
+
+/// The numbers for people: one line per variable, then its most and least sensitive rows.
+fn describe(found: &ColourTolerance) -> String {
+    let width = found.parameters.iter().map(|p| p.name.chars().count()).max().unwrap_or(0);
+    let mut text = String::new();
+    for parameter in &found.parameters {
+        let [low, high] = parameter.between.map(|value| general(value, 6));
+        text += &format!(
+            "{:width$} = {}: {} dE per unit on the average, {} at most",
+            parameter.name,
+            general(parameter.value, 6),
+            general(parameter.mean, 4),
+            general(parameter.largest, 4),
+        );
+        text += &match parameter.for_one {
+            Some(change) => format!("; ±{} moves a colour by 1 dE", general(change, 3)),
+            None => "; no colour moves".to_owned(),
+        };
+        text += &format!("   ({low} to {high})\n");
+        let larger = |a: &&tolerance::ColourShift, b: &&tolerance::ColourShift| {
+            a.delta_e.total_cmp(&b.delta_e)
+        };
+        if let Some(row) = parameter.rows.iter().max_by(larger) {
+            let [l, a, b] = row.lab.map(|change| general(change, 4));
+            let leading = found.leading.iter().zip(&row.leading);
+            let leading: String =
+                leading.map(|(name, value)| format!("{name} = {}, ", general(*value, 6))).collect();
+            text += &format!(
+                "{:width$}   most at {leading}thetai {}, thetas {}, phis {}: dL* {l}, da* {a}, \
+                 db* {b} per unit\n",
+                "",
+                general(row.thetai, 5),
+                general(row.thetas, 5),
+                general(row.phis, 5),
+            );
+        }
+    }
+    text
+}

@@ -1,0 +1,144 @@
+//! The registry of models as JSON: for programs, for editors, for a page.
+
+use mist_format::suggestion::did_you_mean;
+use scattering::{Class, Family, Param, spec::Kind};
+use serde_json::{Map, Value, json};
+
+/// All classes, by family.
+pub fn list() -> Value {
+    let families = Family::ALL.iter().map(|family| {
+        let classes: Vec<Value> = family.classes().into_iter().map(class).collect();
+        json!({ "base": family.base(), "classes": classes })
+    });
+    json!({ "families": families.collect::<Vec<_>>() })
+}
+
+/// One class.
+pub fn class(class: &Class) -> Value {
+    json!({
+        "name": class.name,
+        "parent": class.parent,
+        "summary": class.summary,
+        "equation": class.equation,
+        "source": class.source.split(' ').collect::<Vec<_>>(),
+        "parameters": class.parameters().map(parameter).collect::<Vec<_>>(),
+    })
+}
+
+/// What is said of a class that there is not.
+pub fn unknown(name: &str) -> String {
+    let all = Family::ALL.iter().flat_map(|family| family.classes()).map(|class| class.name);
+    let hint = did_you_mean(name, all).map_or_else(String::new, |hint| format!("; {hint}"));
+    format!("model called {name:?}{hint}")
+}
+
+/// The JSON Schema (2020-12) of the parameters of a class.
+///
+/// Values are texts as programs write them, or numbers; a parameter that holds an object of
+/// another class names the classes it may have. `x-unit`, `x-kind` and `x-base` are for editors.
+pub fn schema(class: &Class) -> Value {
+    let properties: Map<String, Value> =
+        class.parameters().map(|param| (param.name.to_owned(), property(param))).collect();
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": format!("/v1/models/{}", class.name),
+        "title": class.name,
+        "description": class.summary,
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": true,
+        "x-parent": class.parent,
+        "x-equation": class.equation,
+        "x-source": class.source.split(' ').collect::<Vec<_>>(),
+        "x-order": class.parameters().map(|param| param.name).collect::<Vec<_>>(),
+    })
+}
+
+fn property(param: &Param) -> Value {
+    let mut property = json!({
+        "description": param.doc,
+        "default": default(param),
+        "x-kind": kind(param.kind).0,
+        "x-unit": param.unit,
+    });
+    match param.kind {
+        Kind::Number => property["type"] = json!(["number", "string"]),
+        Kind::Integer => property["type"] = json!(["integer", "string"]),
+        Kind::Member(family, base) => {
+            property["type"] = json!("string");
+            property["x-base"] = json!(base);
+            let members = family
+                .classes()
+                .into_iter()
+                .filter(|class| scattering::spec::is_below(class.name, base) || class.name == base);
+            let names: Vec<&str> = members.map(|class| class.name).collect();
+            property["enum"] = json!(names);
+        }
+        _ => property["type"] = json!(["string", "number"]),
+    }
+    property
+}
+
+/// The default as a number where it is one.
+fn default(param: &Param) -> Value {
+    let number = match param.kind {
+        Kind::Integer => param.default.parse().ok().map(|n: i64| json!(n)),
+        Kind::Number => param.default.parse().ok().map(|x: f64| json!(x)),
+        _ => None,
+    };
+    number.unwrap_or_else(|| json!(param.default))
+}
+
+fn parameter(param: &Param) -> Value {
+    let (kind, base) = kind(param.kind);
+    json!({
+        "name": param.name,
+        "kind": kind,
+        "base": base,
+        "default": param.default,
+        "unit": param.unit,
+        "doc": param.doc,
+    })
+}
+
+/// What a parameter holds, and the base of its classes if it is an object.
+fn kind(kind: Kind) -> (&'static str, Option<&'static str>) {
+    match kind {
+        Kind::Number => ("number", None),
+        Kind::Integer => ("integer", None),
+        Kind::Text => ("text", None),
+        Kind::File => ("file", None),
+        Kind::Formula => ("formula", None),
+        Kind::Index => ("index", None),
+        Kind::Table => ("table", None),
+        Kind::Films => ("films", None),
+        Kind::Member(_, base) => ("member", Some(base)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_of_every_class_has_its_parameters_with_defaults_and_units() {
+        for class in Family::ALL.iter().flat_map(|family| family.classes()) {
+            let schema = schema(class);
+            for param in class.parameters() {
+                let property = &schema["properties"][param.name];
+                assert_eq!(property["x-unit"], json!(param.unit), "{}", class.name);
+                assert!(!property["default"].is_null(), "{} {}", class.name, param.name);
+                if let Kind::Member(..) = param.kind {
+                    let names = property["enum"].as_array().unwrap();
+                    let default = param.default.split_whitespace().next().unwrap_or("");
+                    assert!(
+                        default.is_empty() || names.iter().any(|name| name == default),
+                        "{} {}: {default}",
+                        class.name,
+                        param.name
+                    );
+                }
+            }
+        }
+    }
+}

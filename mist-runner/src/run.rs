@@ -1,0 +1,210 @@
+//! Runs of compiled jobs into files: whole ones, and shards that a later process continues.
+
+use std::{
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+use mist_engine::{Control, Failure, Job, Options, OutputStream, RunSummary, Sink};
+use mist_format::program::ColorKey;
+use rise_bridge::write::Style;
+
+use crate::{
+    files::AtomicFile,
+    products::{Product, ProductError},
+    shard::{JournalError, JournalWriter, Shard, ShardLabel},
+};
+
+/// A file that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenFile {
+    /// Its content in a word or two, such as `results`.
+    pub title: &'static str,
+    /// Its name.
+    pub path: PathBuf,
+}
+
+/// Why a compiled job has no results on disk.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The job failed.
+    #[error(transparent)]
+    Engine(#[from] Failure),
+    /// A file cannot be written.
+    #[error("cannot write {path}: {source}", path = .path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// A colour table cannot be written.
+    #[error(transparent)]
+    Product(#[from] ProductError),
+    /// The program cannot be split into shards.
+    #[error(
+        "this program cannot be split: its variables, loops or apertures read integrals or \
+         outputs of earlier steps, so its steps must run one after the other; run it without \
+         --shard"
+    )]
+    Sequential,
+    /// The journal of a shard cannot be opened.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// The journal of a shard cannot be finished.
+    #[error("{0}")]
+    JournalEnd(io::Error),
+    /// A shard was cancelled; its finished steps are kept.
+    #[error("the run was cancelled; the same command goes on behind its last finished step")]
+    ShardCancelled,
+}
+
+impl RunError {
+    /// Whether the request is at fault, and not the computation or a disk.
+    pub fn is_refusal(&self) -> bool {
+        matches!(
+            self,
+            Self::Engine(Failure::Program(_))
+                | Self::Sequential
+                | Self::Journal(JournalError::Foreign(_))
+        )
+    }
+}
+
+/// Runs `job` and writes its files below the folder `out`.
+///
+/// # Errors
+///
+/// If the job fails or a file cannot be written.
+pub fn run_to_files(
+    job: &Job,
+    out: &Path,
+    control: &Control,
+) -> Result<(RunSummary, Vec<WrittenFile>), RunError> {
+    let mut sink = FileSink::create(job, out)?;
+    let summary = job.run(&mut sink, control)?;
+    let mut files = sink.finish()?;
+    if let (Some(section), Some(table)) = (job.colour(), &summary.colour) {
+        for (key, product) in [
+            (ColorKey::Table, Product::Table),
+            (ColorKey::Spectra, Product::Spectra),
+            (ColorKey::Json, Product::Json),
+            (ColorKey::Plot, Product::Picture),
+        ] {
+            if let Some(name) = section.file(key) {
+                let saved = product.save(table, &out.join(name), Style::default())?;
+                let title = product.title();
+                files.extend(saved.into_iter().map(|path| WrittenFile { title, path }));
+            }
+        }
+    }
+    Ok((summary, files))
+}
+
+/// A shard after its run.
+#[derive(Debug)]
+pub struct ShardRun {
+    /// What this process did; nothing if the shard was complete.
+    pub summary: RunSummary,
+    /// The journal.
+    pub path: PathBuf,
+    /// Steps of the shard.
+    pub steps: u64,
+    /// Steps of the shard that an earlier process finished.
+    pub steps_before: u64,
+    /// Steps of the whole job.
+    pub job_steps: u64,
+}
+
+/// Runs the unfinished steps of `shard` of the job that `program` was compiled to with `options`,
+/// into a journal in the folder `out`.
+///
+/// # Errors
+///
+/// If the program cannot be split, the journal belongs to another run or process, a step fails, or
+/// the journal cannot be written.
+pub fn run_shard(
+    job: &Job,
+    (options, program): (&Options, &str),
+    shard: Shard,
+    out: &Path,
+    control: &Control,
+) -> Result<ShardRun, RunError> {
+    if job.runs_in_order() {
+        return Err(RunError::Sequential);
+    }
+    let name = &options.job;
+    let job_steps = job.count_steps(control)?;
+    let inputs = format!("{:?} {} {program}", options.mode, options.seed);
+    let label = ShardLabel::new(job, name, shard, job_steps, &inputs);
+    let path = out.join(shard.file_name(name));
+    let mut journal = JournalWriter::open(&path, &label)?;
+    let part = shard.steps(job_steps);
+    let steps_before = journal.next - part.start;
+    let mut summary = RunSummary::default();
+    if !journal.complete {
+        summary =
+            job.run_part(journal.next..part.end, &mut journal, control).map_err(|failure| {
+                match failure {
+                    Failure::Cancelled => RunError::ShardCancelled,
+                    other => RunError::Engine(other),
+                }
+            })?;
+        journal.end(summary.seconds).map_err(RunError::JournalEnd)?;
+    }
+    Ok(ShardRun { summary, path, steps: part.end - part.start, steps_before, job_steps })
+}
+
+/// Writes results, listing and samples of one job; the files have their names only when all are
+/// whole.
+struct FileSink {
+    results: AtomicFile,
+    listing: AtomicFile,
+    samples: Option<AtomicFile>,
+}
+
+impl FileSink {
+    /// Begins the files that `job` writes, below `out`.
+    fn create(job: &Job, out: &Path) -> Result<Self, RunError> {
+        let create = |name: &str| {
+            let path = out.join(name);
+            AtomicFile::create(&path).map_err(|source| RunError::Write { path, source })
+        };
+        Ok(Self {
+            results: create(&job.results_name())?,
+            listing: create(&job.listing_name())?,
+            samples: job.samples_name().map(create).transpose()?,
+        })
+    }
+
+    /// Gives the files their names.
+    fn finish(self) -> Result<Vec<WrittenFile>, RunError> {
+        let titled = [
+            Some(("results", self.results)),
+            Some(("listing", self.listing)),
+            self.samples.map(|samples| ("samples", samples)),
+        ];
+        let finish = |(title, file): (_, AtomicFile)| {
+            let path = file.path().to_owned();
+            match file.finish() {
+                Ok(()) => Ok(WrittenFile { title, path }),
+                Err(source) => Err(RunError::Write { path, source }),
+            }
+        };
+        titled.into_iter().flatten().map(finish).collect()
+    }
+}
+
+impl Sink for FileSink {
+    fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()> {
+        let file = match stream {
+            OutputStream::Results => &mut self.results,
+            OutputStream::Listing => &mut self.listing,
+            OutputStream::Samples => match &mut self.samples {
+                Some(samples) => samples,
+                None => return Ok(()),
+            },
+        };
+        file.write_all(text.as_bytes())
+    }
+}

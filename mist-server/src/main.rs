@@ -1,5 +1,0 @@
-//! The program `mist`.
-
-fn main() -> std::process::ExitCode {
-    mist_server::main()
-}
