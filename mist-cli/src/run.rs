@@ -174,7 +174,7 @@ fn run_one(args: &RunArgs, program: &Path, mut control: Control) -> Result<Fate,
     }
 }
 
-/// What a finished run says.
+/// The message of a finished run.
 fn describe(job: &str, summary: &RunSummary, files: &[WrittenFile]) -> String {
     let mut text = format!(
         "{job}: {} step{}, {:.3e} evaluations, {:.2} s\n",
@@ -190,7 +190,7 @@ fn describe(job: &str, summary: &RunSummary, files: &[WrittenFile]) -> String {
     text
 }
 
-/// What a finished shard says.
+/// The message of a finished shard.
 fn describe_shard(name: &str, shard: Shard, run: &ShardRun, job: &Job) -> String {
     let ShardRun { summary, steps, steps_before, job_steps, .. } = run;
     let mut text = format!(

@@ -104,7 +104,7 @@ pub fn run_to_files(
 /// A shard after its run.
 #[derive(Debug)]
 pub struct ShardRun {
-    /// What this process did; nothing if the shard was complete.
+    /// The work of this process; nothing if the shard was complete.
     pub summary: RunSummary,
     /// The journal.
     pub path: PathBuf,
