@@ -10,7 +10,7 @@ use mist_engine::material::query;
 use mist_runner::files::{AtomicFile, DiskFiles};
 use pictures::image::{Image, PictureFormat};
 use rise_bridge::rise::{
-    product::{self, Made, Wanted},
+    product::{self, BridgeFiles, BridgeOptions},
     stack,
 };
 
@@ -28,7 +28,7 @@ mod render;
 
 /// Compute the materials of a RISE scene and write the scene with their tables.
 ///
-/// Materials are described in comments `# mist: NAME = VALUE` inside their chunks; with --derive
+/// Materials are scene_materials in comments `# mist: NAME = VALUE` inside their chunks; with --derive
 /// also lambertian_material, cooktorrance_material and ggx_material by RISE's own parameters. For
 /// each one a MIST program over the rings of its table is written and run, and its results become a
 /// .RISEdataBSDF file: docs/formats/rise.md.
@@ -107,7 +107,7 @@ fn tables(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
         return Err(Stop::Refused(format!("--nodes is from 3 to 361, not {}", args.nodes)));
     }
     let renderer = args.render.then(render::Renderer::of_environment).transpose()?;
-    let wanted = Wanted {
+    let wanted = BridgeOptions {
         nodes: args.nodes,
         wavelengths: query::nodes("wavelengths", &args.wavelengths).map_err(refused)?,
         derive: args.derive,
@@ -169,7 +169,7 @@ fn save(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<(), Stop> {
     Ok(())
 }
 
-fn told(folder: &Path, made: &Made) -> String {
+fn told(folder: &Path, made: &BridgeFiles) -> String {
     let mut text = String::new();
     for (name, table) in &made.tables {
         let [r, g, b] = table.reflectance();
@@ -184,8 +184,8 @@ fn told(folder: &Path, made: &Made) -> String {
     for scene in &made.scenes {
         text += &format!("{}\n", folder.join(scene).display());
     }
-    for reason in &made.left {
-        text += &format!("left as it is: {reason}\n");
+    for reason in &made.skipped {
+        text += &format!("not converted: {reason}\n");
     }
     text
 }

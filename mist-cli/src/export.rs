@@ -58,7 +58,7 @@ pub(super) struct ExportArgs {
     wavelengths: Option<String>,
     /// Nodes of the table, or auto:PERCENT, the smallest grid on which 95 % of the light is nearer
     /// than that. pbsdf: phi_d x theta_d x theta_h (37x46x91). bsdf: theta_i x side of an image
-    /// (24x64), or phi_i x theta_i x side (37x20x48). Goniometer tables: degrees
+    /// (24x64), or phi_i x theta_i x side (37x20x48). GoniometerTable tables: degrees
     /// [thetai=0:10:80,thetas=0:5:85,phis=0:10:180].
     #[arg(long, value_name = "GRID")]
     grid: Option<String>,

@@ -78,7 +78,7 @@ fn silent_failures_are_failures() {
     for (body, reason) in [
         ("true", "RISE wrote no ball_mist.png"),
         ("cp ../black.png ball_mist.png", "ball_mist.png is black"),
-        ("echo x > ball_mist.png", "this is no PNG"),
+        ("echo x > ball_mist.png", "not a PNG"),
         ("echo x > ball_mist.png; echo 'derive diagnostic: apply failed'", "RISE says"),
         ("echo x > ball_mist.png; echo 'DataDrivenBSDF:: Signature not found'", "RISE says"),
     ] {

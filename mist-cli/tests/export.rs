@@ -8,7 +8,7 @@ use axum::{
     http::{Request, StatusCode, header},
 };
 use mist_server::http::{App, router};
-use rise_bridge::{mitsuba::pbsdf::Table, tensor::Reader};
+use rise_bridge::{mitsuba::pbsdf::PbsdfTable, tensor::TensorReader};
 use tempfile::TempDir;
 use tower::ServiceExt;
 
@@ -41,7 +41,7 @@ fn a_pbsdf_is_written_with_its_error_and_agrees_with_its_material() {
     let said = good(dir.path(), &[&words[..], &["9x8x12", "-o", "metal.pbsdf"]].concat());
     assert!(said.contains("9x8x12 nodes, 5 wavelengths") && said.contains('%'), "{said}");
     let file = fs::File::open(dir.path().join("metal.pbsdf")).unwrap();
-    assert_eq!(Table::read(file).unwrap().axes()[0].len(), 9);
+    assert_eq!(PbsdfTable::read(file).unwrap().axes()[0].len(), 9);
     let said = good(dir.path(), &["export", "metal.json", "--compare", "metal.pbsdf"]);
     assert!(said.contains("\n550\t1.000000\t"), "{said}");
 }
@@ -59,7 +59,7 @@ fn a_program_gives_the_model_of_its_first_step() {
     }
     let numbers = |name: &str| {
         let file = fs::File::open(dir.path().join(name)).unwrap();
-        Reader::open(file).unwrap().numbers("M").unwrap()
+        TensorReader::open(file).unwrap().numbers("M").unwrap()
     };
     assert_eq!(numbers("metal.json.pbsdf"), numbers("metal.mist.pbsdf"));
 }
@@ -125,7 +125,7 @@ async fn the_service_gives_the_tables_by_one_url_and_knows_its_tags() {
         assert_eq!(answer.status(), StatusCode::OK, "{file}");
         let tag = answer.headers()[header::ETAG].clone();
         let bytes = to_bytes(answer.into_body(), 1 << 24).await.unwrap();
-        assert!(Reader::open(std::io::Cursor::new(bytes)).unwrap().field(field).is_ok());
+        assert!(TensorReader::open(std::io::Cursor::new(bytes)).unwrap().field(field).is_ok());
         let again = Request::get(&uri).header(header::IF_NONE_MATCH, tag);
         let again = ask(again.body(Body::empty()).unwrap()).await;
         assert_eq!(again.status(), StatusCode::NOT_MODIFIED);

@@ -1,12 +1,12 @@
-//! The columns of a text table: their names, and which number of a row stands in each.
+//! The columns of a text table: names and values.
 
 use mist_engine::colour::{ColourRow, ColourTable};
 
 /// Letter that ends the names of a Stokes component's columns; none for I.
 pub(crate) const STOKES: [&str; 4] = ["", "Q", "U", "V"];
 
-/// The angles and the solid angle: columns that every table has.
-pub(crate) const PLACE: [&str; 4] = ["thetai", "thetas", "phis", "omega"];
+/// The angles and the solid angle of the patch: columns of every table.
+pub(crate) const PATCH: [&str; 4] = ["thetai", "thetas", "phis", "omega"];
 
 /// The tristimulus values of the unfiltered colour.
 pub(crate) const XYZ: [&str; 3] = ["X", "Y", "Z"];
@@ -21,7 +21,7 @@ pub(crate) fn colour_names(at: usize) -> [String; 4] {
 
 /// Names of the columns of a colour table.
 pub(crate) fn names(table: &ColourTable, with_xyz: bool) -> Vec<String> {
-    let mut names = place_names(table);
+    let mut names = patch_names(table);
     names.extend((0..table.stokes).flat_map(colour_names));
     if with_xyz {
         names.extend(XYZ.map(str::to_owned));
@@ -30,9 +30,9 @@ pub(crate) fn names(table: &ColourTable, with_xyz: bool) -> Vec<String> {
     names
 }
 
-/// The numbers of one row of a colour table, flags excepted: they are an integer.
+/// The numbers of one row of a colour table, without the flags.
 pub(crate) fn values(table: &ColourTable, row: &ColourRow, with_xyz: bool) -> Vec<f64> {
-    let mut values = place_values(row);
+    let mut values = patch_values(row);
     for (rgb, xyz) in row.rgb.iter().zip(&row.xyz).take(table.stokes) {
         values.extend(rgb);
         values.push(xyz[1]);
@@ -44,12 +44,12 @@ pub(crate) fn values(table: &ColourTable, row: &ColourRow, with_xyz: bool) -> Ve
 }
 
 /// Names of the leading columns, the angles and the solid angle.
-pub(crate) fn place_names(table: &ColourTable) -> Vec<String> {
-    table.leading.iter().cloned().chain(PLACE.map(str::to_owned)).collect()
+pub(crate) fn patch_names(table: &ColourTable) -> Vec<String> {
+    table.leading.iter().cloned().chain(PATCH.map(str::to_owned)).collect()
 }
 
-/// The numbers under [`place_names`].
-pub(crate) fn place_values(row: &ColourRow) -> Vec<f64> {
+/// The numbers under [`patch_names`].
+pub(crate) fn patch_values(row: &ColourRow) -> Vec<f64> {
     let mut values = row.leading.clone();
     values.extend([row.thetai, row.thetas, row.phis, row.omega]);
     values

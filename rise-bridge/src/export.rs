@@ -1,11 +1,12 @@
-//! What every export of a material needs: its models at every wavelength, and reasons to refuse.
+//! Common parts of the exports of a material: its models at every wavelength, the error of a table,
+//! the reasons for refusal.
 
 mod bands;
 mod error;
-mod even;
-mod spread;
+mod interpolation_error;
+mod quasirandom;
 
 pub use bands::Bands;
 pub use error::ExportError;
-pub(crate) use even::{even, even_in_four, quantile};
-pub use spread::Spread;
+pub use interpolation_error::InterpolationError;
+pub(crate) use quasirandom::{r3_sequence, r4_sequence, weighted_quantile};

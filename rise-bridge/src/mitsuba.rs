@@ -1,4 +1,4 @@
-//! What Mitsuba 3 reads: its frames, its tables of Mueller matrices and of reflection.
+//! Formats of Mitsuba 3: its Stokes bases, tables of Mueller matrices and tables of reflection.
 
 pub mod axes;
 pub mod bsdf;

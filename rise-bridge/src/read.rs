@@ -1,86 +1,10 @@
-//! Text tables back into numbers, with every defect of the text found and placed.
+//! Reads text tables; every defect of the text is found and located.
 
+mod error;
 mod mspd;
 mod mtab;
 mod text;
 
-pub use mspd::{Spectra, SpectraRow, mspd};
+pub use error::ReadError;
+pub use mspd::{SpectraRow, SpectraTable, mspd};
 pub use mtab::mtab;
-
-/// Why a text is not a table.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ReadError {
-    /// The first line is another one.
-    #[error("line 1: the first line is not \"# MIST-TABLE 1\"")]
-    NotATable,
-    /// A header line has a value that its key cannot have.
-    #[error("line {line}: {key}: {problem}")]
-    Header {
-        /// Line, from 1.
-        line: usize,
-        /// The key.
-        key: String,
-        /// What is wrong and what would be right.
-        problem: String,
-    },
-    /// A header line is missing.
-    #[error("the header has no line \"# {0}\"")]
-    Missing(&'static str),
-    /// A line has a character that no writer puts there: the file is damaged or no text.
-    #[error("line {line}, column {column}: the control character {found:?}: is this file damaged?")]
-    Control {
-        /// Line, from 1.
-        line: usize,
-        /// Column in characters, from 1.
-        column: usize,
-        /// The character.
-        found: char,
-    },
-    /// A header line stands after the first row.
-    #[error("line {0}: a header line after the rows have begun")]
-    LateHeader(usize),
-    /// A row has a word that is not a finite number.
-    #[error("line {line}, column {column}: {text:?} is not a finite number")]
-    Number {
-        /// Line, from 1.
-        line: usize,
-        /// Name of the column.
-        column: String,
-        /// The word.
-        text: String,
-    },
-    /// A row has too few or too many numbers.
-    #[error("line {line}: {found} numbers for {expected} columns")]
-    Width {
-        /// Line, from 1.
-        line: usize,
-        /// Numbers in the row.
-        found: usize,
-        /// Columns.
-        expected: usize,
-    },
-    /// The last line is missing: the table was cut off.
-    #[error("the table is cut off after {0} rows: its last line \"# end …\" is missing")]
-    Truncated(usize),
-    /// Rows are missing or doubled.
-    #[error("{found} rows where {by} says {stated}")]
-    RowCount {
-        /// Rows in the text.
-        found: usize,
-        /// Rows that should be there.
-        stated: usize,
-        /// Which line says so.
-        by: &'static str,
-    },
-    /// The rows are not those that were written.
-    #[error("the rows were changed: their checksum is {found}, \"# end\" says {stated}")]
-    Checksum {
-        /// Of the rows in the text.
-        found: String,
-        /// In the last line.
-        stated: String,
-    },
-    /// Text stands after the last line.
-    #[error("line {0}: text after \"# end\"")]
-    AfterEnd(usize),
-}

@@ -1,9 +1,9 @@
-//! RISE: scenes whose materials we know, and the tables that its `datadriven_material` reads.
+//! RISE: its scenes, and the tables of its `datadriven_material`.
 //!
-//! [`scene`] reads the chunks of a scene and puts others in their place; [`material`] finds what a
-//! chunk says about a material, in comments for us or in RISE's own parameters; [`program`] writes
-//! the MIST program of its rings; [`product`] runs it and makes tables and scenes; [`table`] is the
-//! file. [`deferred`] lets RISE render the geometry alone and shades it.
+//! [`scene`] reads the chunks of a scene and replaces them; [`material`] reads materials from
+//! comments or from RISE's own parameters; [`program`] writes the MIST program of a table;
+//! [`product`] runs it and makes tables and scenes; [`mod@table`] is the file format. [`deferred`]
+//! lets RISE render the geometry alone and shades it.
 
 pub mod deferred;
 pub mod material;

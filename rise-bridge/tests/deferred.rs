@@ -17,8 +17,8 @@ use preview::{Film, Lamp, LampBasis, Scene, Shape, Sky};
 use rise_bridge::{
     export::ExportError,
     rise::{
-        deferred::{self, Deferred, Lit},
-        scene::{Chunk, chunks},
+        deferred::{self, DeferredPlan, Illumination},
+        scene::{SceneChunk, chunks},
     },
 };
 use scattering::{Basis, Geometry, Mode};
@@ -44,13 +44,13 @@ fn files() -> Arc<dyn Files + Send + Sync> {
     Arc::new(MemoryFiles(BTreeMap::new()))
 }
 
-fn lit(light: [f64; 4]) -> Lit {
+fn lit(light: [f64; 4]) -> Illumination {
     let settings = ColourNames::of_factors("D65").settings(None).unwrap();
     let light_basis = LampBasis::PlaneOfIncidence;
-    Lit { wavelengths: NM.to_vec(), settings, light, light_basis }
+    Illumination { wavelengths: NM.to_vec(), settings, light, light_basis }
 }
 
-fn plan(text: &str, finer: usize) -> Result<Deferred, ExportError> {
+fn plan(text: &str, finer: usize) -> Result<DeferredPlan, ExportError> {
     deferred::plan(text, "balls", &MemoryFiles(BTreeMap::new()), false, finer)
 }
 
@@ -88,11 +88,11 @@ fn rendered(text: &str) -> Image {
         assert!(found.next().is_none(), "one {keyword}");
         first
     };
-    let vector = |chunk: &Chunk, name: &str| {
+    let vector = |chunk: &SceneChunk, name: &str| {
         let mut words = chunk.get(name).unwrap().split_whitespace().map(|x| x.parse().unwrap());
         DVec3::from_array(std::array::from_fn(|_| words.next().unwrap()))
     };
-    let number = |chunk: &Chunk, name: &str| chunk.get(name).unwrap().parse::<f64>().unwrap();
+    let number = |chunk: &SceneChunk, name: &str| chunk.get(name).unwrap().parse::<f64>().unwrap();
     assert_eq!(only("standard_shader").get("shaderop"), Some("DefaultDirectLighting"));
     let rasterizer = only("pixelpel_rasterizer");
     assert_eq!(

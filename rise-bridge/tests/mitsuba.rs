@@ -13,22 +13,22 @@ use mist_engine::{
 use rise_bridge::{
     export::Bands,
     mitsuba::{
-        axes::{Axes, asked_directions},
-        bsdf::{self, Channels, Size},
+        axes::{HalfAngleAxes, node_directions},
+        bsdf::{self, BsdfChannels, BsdfSize},
         frame::{self, HalfAngles},
-        pbsdf::{self, Table, spread},
+        pbsdf::{self, PbsdfTable, interpolation_error},
     },
 };
 use scattering::{Basis, Mode, Model, Mueller};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
-struct Case {
+struct MitsubaCase {
     model: String,
     params: serde_json::Value,
     l: [f64; 3],
     v: [f64; 3],
-    rusinkiewicz_rad: Angles,
+    rusinkiewicz_rad: MitsubaAngles,
     scatmech_psps: [[f64; 4]; 4],
     scatmech_plane: [[f64; 4]; 4],
     mitsuba_table: [[f64; 4]; 4],
@@ -38,13 +38,13 @@ struct Case {
 }
 
 #[derive(Deserialize)]
-struct Angles {
+struct MitsubaAngles {
     phi_d: Option<f64>,
     theta_d: Option<f64>,
     theta_h: Option<f64>,
 }
 
-impl Case {
+impl MitsubaCase {
     fn material(&self) -> Prepared {
         let json = serde_json::json!({ "model": self.model, "parameters": self.params });
         // NIST's own numbers: sound values of Diffuse_Subsurface_BRDF_Model differ by 2e-5.
@@ -60,7 +60,7 @@ impl Case {
     }
 }
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<MitsubaCase> {
     serde_json::from_str(include_str!("data/mitsuba.json")).unwrap()
 }
 
@@ -77,7 +77,7 @@ fn our_matrices_are_those_of_the_table_and_of_mitsuba() {
         let ask = |basis| case.model().evaluate_local(&[(l, v)], basis)[0];
         let (psps, plane) = (ask(Basis::Psps), ask(Basis::Plane));
         // The same formulas in 64 bits; l and v give the angles with an error of 1e-16.
-        let table = frame::with_other_hand(plane);
+        let table = frame::with_opposite_handedness(plane);
         for (ours, theirs) in
             [(psps, case.scatmech_psps), (plane, case.scatmech_plane), (table, case.mitsuba_table)]
         {
@@ -101,7 +101,7 @@ fn bases_and_half_angles_are_mitsubas() {
             // 32-bit numbers.
             assert!((frame::stokes_basis(k) - DVec3::from(theirs)).length() < 1e-6);
         }
-        let Angles { phi_d: Some(phi_d), theta_d: Some(theta_d), theta_h: Some(theta_h) } =
+        let MitsubaAngles { phi_d: Some(phi_d), theta_d: Some(theta_d), theta_h: Some(theta_h) } =
             case.rusinkiewicz_rad
         else {
             continue;
@@ -115,21 +115,21 @@ fn bases_and_half_angles_are_mitsubas() {
 
 /// A table with the angles of `at` among its nodes, and others close by: in 32 bits a little of the
 /// neighbours comes in, and a far one may be a peak.
-fn axes_through(at: &HalfAngles) -> Axes {
+fn axes_through(at: &HalfAngles) -> HalfAngleAxes {
     let with = |mut nodes: Vec<f32>, x: f64| {
         nodes.extend([-0.01, 0.0, 0.01].map(|step| (x + step) as f32));
         nodes.sort_by(f32::total_cmp);
         nodes
     };
-    let plain = Axes::parse("3x2x2", true).unwrap();
-    Axes {
+    let plain = HalfAngleAxes::parse("3x2x2", true).unwrap();
+    HalfAngleAxes {
         phi_d: with(plain.phi_d, at.phi_d),
         theta_d: with(plain.theta_d, at.theta_d),
         theta_h: with(plain.theta_h, at.theta_h),
     }
 }
 
-fn file(bands: &Bands, axes: &Axes) -> Vec<u8> {
+fn file(bands: &Bands, axes: &HalfAngleAxes) -> Vec<u8> {
     pbsdf::write(bands, axes, "{}", Vec::new(), &Control::default()).unwrap()
 }
 
@@ -142,7 +142,7 @@ fn a_table_evaluated_as_mitsuba_does_gives_mitsubas_values() {
         // Mirror images have no azimuth about the half vector: Mitsuba gives 0 there.
         let Some(at) = HalfAngles::of(l, v) else { continue };
         let bands = pbsdf::bands(&case.material(), &NM, true).unwrap();
-        let table = Table::read(Cursor::new(file(&bands, &axes_through(&at)))).unwrap();
+        let table = PbsdfTable::read(Cursor::new(file(&bands, &axes_through(&at)))).unwrap();
         let error = error(table.eval(l, v, 550.0), case.mitsuba_eval_radiance_mode);
         // Numbers, nodes and Mitsuba's bases have 32 bits.
         assert!(error < 1e-6, "{} {l} {v}: {error:e}", case.model);
@@ -153,16 +153,16 @@ fn a_table_evaluated_as_mitsuba_does_gives_mitsubas_values() {
 fn nodes_come_back_to_32_bits_and_none_is_empty() {
     let case = &cases()[2];
     let bands = pbsdf::bands(&case.material(), &NM, true).unwrap();
-    let axes = Axes::parse("5x4x6", false).unwrap();
-    let table = Table::read(Cursor::new(file(&bands, &axes))).unwrap();
+    let axes = HalfAngleAxes::parse("5x4x6", false).unwrap();
+    let table = PbsdfTable::read(Cursor::new(file(&bands, &axes))).unwrap();
     assert_eq!(table.axes()[3], NM);
     for node in (0..5).flat_map(|i| (0..4).flat_map(move |j| (0..6).map(move |k| [i, j, k]))) {
-        let (l, v) = asked_directions(&axes.node(node));
+        let (l, v) = node_directions(&axes.node(node));
         for (w, model) in bands.models().iter().enumerate() {
             let found = table.node([node[0], node[1], node[2], w]);
             assert!(found.0.iter().flatten().all(|x| x.is_finite()));
             let exact = model.evaluate_local(&[(l, v)], Basis::Plane)[0];
-            let error = (found - frame::with_other_hand(exact)).largest();
+            let error = (found - frame::with_opposite_handedness(exact)).largest();
             // Half a unit in the last of 24 bits, and the smallest number with all of them.
             assert!(
                 error <= 6e-8 * exact.largest() + f64::from(f32::MIN_POSITIVE),
@@ -175,22 +175,22 @@ fn nodes_come_back_to_32_bits_and_none_is_empty() {
 #[test]
 fn the_error_between_nodes_is_stated_and_shrinks_with_the_grid() {
     let bands = pbsdf::bands(&cases()[0].material(), &NM, true).unwrap();
-    let coarse = spread(&bands, &Axes::parse("37x46x91", false).unwrap());
+    let coarse = interpolation_error(&bands, &HalfAngleAxes::parse("37x46x91", false).unwrap());
     // Known for this grid and material from Mitsuba's reader: median 0.1 %, 95 % 2.1 % for
     // directions that do not come near the horizon; these do.
-    assert!(coarse.median < 0.002 && coarse.most < 0.05, "{coarse:?}");
-    let fine = spread(&bands, &Axes::parse("73x91x181", false).unwrap());
-    assert!(fine.most < 0.5 * coarse.most, "{fine:?}");
+    assert!(coarse.median < 0.002 && coarse.quantile_95 < 0.05, "{coarse:?}");
+    let fine = interpolation_error(&bands, &HalfAngleAxes::parse("73x91x181", false).unwrap());
+    assert!(fine.quantile_95 < 0.5 * coarse.quantile_95, "{fine:?}");
     let (axes, found) = pbsdf::choose_axes(&bands, 0.05, false).unwrap();
-    assert!(found.most <= 0.05 && axes.nodes() <= 37 * 46 * 91);
+    assert!(found.quantile_95 <= 0.05 && axes.nodes() <= 37 * 46 * 91);
 }
 
 #[test]
 fn a_table_agrees_with_its_material_and_not_with_another() {
     let all = cases();
     let bands = pbsdf::bands(&all[0].material(), &NM, true).unwrap();
-    let bytes = file(&bands, &Axes::parse("9x8x12", false).unwrap());
-    let against = |case: &Case| {
+    let bytes = file(&bands, &HalfAngleAxes::parse("9x8x12", false).unwrap());
+    let against = |case: &MitsubaCase| {
         pbsdf::compare(Cursor::new(&bytes), &case.material(), &Control::default()).unwrap()
     };
     let same = against(&all[0]);
@@ -211,10 +211,10 @@ fn what_mitsuba_cannot_read_is_refused_with_the_reason() {
 #[test]
 fn a_bsdf_gives_the_material_back_in_spectra_and_in_colours() {
     let bands = Bands::new(&cases()[0].material(), &NM).unwrap();
-    for channels in [Channels::Spectra, Channels::Rgb] {
-        let size = Size::parse("24x64").unwrap();
+    for channels in [BsdfChannels::Spectra, BsdfChannels::Rgb] {
+        let size = BsdfSize::parse("24x64").unwrap();
         let file = bsdf::write(&bands, channels, size, "{}", Vec::new(), &Control::default());
-        let table = bsdf::Table::read(Cursor::new(file.unwrap())).unwrap();
+        let table = bsdf::BsdfTable::read(Cursor::new(file.unwrap())).unwrap();
         let (mut sum, mut difference) = (0.0, 0.0);
         for k in 0..500 {
             let [a, b, c] = [0.819, 0.671, 0.549].map(|step| (k as f64 * step).fract());
@@ -235,10 +235,11 @@ fn a_bsdf_gives_the_material_back_in_spectra_and_in_colours() {
 #[test]
 fn the_error_of_a_bsdf_is_that_of_the_file_that_is_read_back() {
     let bands = Bands::new(&cases()[0].material(), &NM).unwrap();
-    let size = Size::parse("16x24").unwrap();
-    let stated = bsdf::spread(&bands, Channels::Spectra, size).unwrap();
-    let file = bsdf::write(&bands, Channels::Spectra, size, "{}", Vec::new(), &Control::default());
-    let table = bsdf::Table::read(Cursor::new(file.unwrap())).unwrap();
+    let size = BsdfSize::parse("16x24").unwrap();
+    let stated = bsdf::interpolation_error(&bands, BsdfChannels::Spectra, size).unwrap();
+    let file =
+        bsdf::write(&bands, BsdfChannels::Spectra, size, "{}", Vec::new(), &Control::default());
+    let table = bsdf::BsdfTable::read(Cursor::new(file.unwrap())).unwrap();
     let direction = |sin2: f64, phi: f64| {
         let sin = sin2.sqrt();
         DVec3::new(sin * phi.cos(), sin * phi.sin(), (1.0 - sin2).sqrt())
@@ -250,7 +251,7 @@ fn the_error_of_a_bsdf_is_that_of_the_file_that_is_read_back() {
         let (l, v) = (direction(a, 6.283_185 * b), direction(0.998 * c, 0.0));
         let exact = bands.unpolarized(l, v).next().unwrap();
         let error = (table.eval(l, v)[0] / (exact * l.z) - 1.0).abs();
-        for (k, bound) in [stated.median, stated.most].into_iter().enumerate() {
+        for (k, bound) in [stated.median, stated.quantile_95].into_iter().enumerate() {
             all[k] += exact;
             worse[k] += if error > bound { exact } else { 0.0 };
         }
@@ -264,10 +265,13 @@ fn the_error_of_a_bsdf_is_that_of_the_file_that_is_read_back() {
 #[test]
 fn the_size_of_a_bsdf_is_chosen_for_an_error() {
     let bands = Bands::new(&cases()[0].material(), &NM).unwrap();
-    let (size, found) = bsdf::choose_size(&bands, Channels::Spectra, 0.02).unwrap();
-    assert!(found.most <= 0.02 && size.side <= 128, "{size:?} {found:?}");
-    let smaller = Size { theta_i: 16, side: 32, ..size };
-    assert!(bsdf::spread(&bands, Channels::Spectra, smaller).unwrap().most > found.most);
-    let refused = bsdf::choose_size(&bands, Channels::Spectra, 1e-6).unwrap_err().to_string();
+    let (size, found) = bsdf::choose_size(&bands, BsdfChannels::Spectra, 0.02).unwrap();
+    assert!(found.quantile_95 <= 0.02 && size.side <= 128, "{size:?} {found:?}");
+    let smaller = BsdfSize { theta_i: 16, side: 32, ..size };
+    assert!(
+        bsdf::interpolation_error(&bands, BsdfChannels::Spectra, smaller).unwrap().quantile_95
+            > found.quantile_95
+    );
+    let refused = bsdf::choose_size(&bands, BsdfChannels::Spectra, 1e-6).unwrap_err().to_string();
     assert!(refused.contains("the largest size, 1x64x512"), "{refused}");
 }

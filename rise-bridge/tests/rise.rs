@@ -14,7 +14,7 @@ use mist_engine::{
     sampling::Sampling,
 };
 use rise_bridge::rise::{
-    product::{self, Made, Wanted},
+    product::{self, BridgeFiles, BridgeOptions},
     table::{read, ring},
 };
 use scattering::{Basis, Mode};
@@ -31,8 +31,9 @@ fn files() -> Arc<dyn Files + Send + Sync> {
     Arc::new(MemoryFiles(BTreeMap::from(texts)))
 }
 
-static MADE: LazyLock<Made> = LazyLock::new(|| {
-    let wanted = Wanted { nodes: NODES, wavelengths: NM.to_vec(), derive: true, bands: true };
+static MADE: LazyLock<BridgeFiles> = LazyLock::new(|| {
+    let wanted =
+        BridgeOptions { nodes: NODES, wavelengths: NM.to_vec(), derive: true, bands: true };
     product::make(SCENE, "two_balls", &files(), &wanted, &Control::default()).unwrap()
 });
 
@@ -113,7 +114,7 @@ fn scenes_show_the_tables_and_keep_the_rest() {
     assert_eq!(product::images(&plain).unwrap(), ["balls_mist.png"]);
     assert_eq!(product::images(&text(names[2])).unwrap(), ["two_balls_b00.exr"]);
     // Glass is specular: it stays as it is, with the reason.
-    assert!(made.left.iter().any(|reason| reason.starts_with("glass: ")), "{:?}", made.left);
+    assert!(made.skipped.iter().any(|reason| reason.starts_with("glass: ")), "{:?}", made.skipped);
     let program = text("gold.mist");
     assert!(program.contains("ANNULUS") && program.contains("$substrate = gold.nk"));
     assert!(made.files.contains_key("gold.nk") && made.files.contains_key("gold.dat"));
@@ -130,7 +131,8 @@ fn the_filter_divides_the_light_of_facets() {
 
 #[test]
 fn mistakes_of_a_scene_are_told_with_their_place() {
-    let wanted = Wanted { nodes: NODES, wavelengths: NM.to_vec(), derive: false, bands: false };
+    let wanted =
+        BridgeOptions { nodes: NODES, wavelengths: NM.to_vec(), derive: false, bands: false };
     let error = |scene: &str| {
         product::make(scene, "x", &files(), &wanted, &Control::default()).unwrap_err().to_string()
     };

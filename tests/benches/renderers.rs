@@ -10,7 +10,7 @@ use mist_engine::{
     material::{Material, Prepared, query::ColourNames},
 };
 use preview::{Lamp, LampBasis, Scene, Shape, Sky, mesh::Mesh, render};
-use rise_bridge::mitsuba::{axes::Axes, pbsdf};
+use rise_bridge::mitsuba::{axes::HalfAngleAxes, pbsdf};
 use scattering::Mode;
 
 fn material(json: &str) -> Prepared {
@@ -54,7 +54,7 @@ fn preview(c: &mut Criterion) {
 fn table(c: &mut Criterion) {
     let bands = pbsdf::bands(&paint(), &[450.0, 500.0, 550.0, 600.0, 650.0], true);
     let bands = bands.expect("five wavelengths");
-    let axes = Axes::new([37, 46, 91], false).expect("a grid");
+    let axes = HalfAngleAxes::new([37, 46, 91], false).expect("a grid");
     let mut group = c.benchmark_group("pbsdf");
     group.sample_size(10);
     group.bench_function("37x46x91x5", |b| {

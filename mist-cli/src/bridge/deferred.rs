@@ -5,7 +5,7 @@ use mist_engine::material::query::{self, ColourNames};
 use mist_runner::files::DiskFiles;
 use rise_bridge::{
     export::ExportError,
-    rise::deferred::{self, Lit},
+    rise::deferred::{self, Illumination},
 };
 use spectra::{ColourPlan, Grid};
 
@@ -27,7 +27,7 @@ pub(super) fn deferred(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
     let plan = deferred::plan(&source.text, &stem, &*files, args.derive, args.finer);
     let plan = plan.map_err(not_exported)?;
     save(&args.out, &plan.files)?;
-    for reason in &plan.left {
+    for reason in &plan.skipped {
         print(&format!("left black: {reason}\n"))?;
     }
     for scene in plan.scenes() {
@@ -54,9 +54,9 @@ pub(super) fn deferred(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
 }
 
 impl BridgeArgs {
-    fn lit(&self) -> Result<Lit, Stop> {
+    fn lit(&self) -> Result<Illumination, Stop> {
         let names = ColourNames::of_factors(&self.illuminant);
-        Ok(Lit {
+        Ok(Illumination {
             wavelengths: query::nodes("wavelengths", &self.wavelengths).map_err(refused)?,
             settings: names.settings(None).map_err(refused)?,
             light: query::stokes(&self.incident).map_err(refused)?,
@@ -68,7 +68,7 @@ impl BridgeArgs {
 fn save_picture(
     args: &BridgeArgs,
     film: &Film,
-    lit: &Lit,
+    lit: &Illumination,
     name: &str,
     filter: Polarization,
 ) -> Result<(), Stop> {

@@ -13,9 +13,9 @@ pub(super) enum Format {
     Bsdf,
     /// ASAM OpenMATERIAL 3D, BRDF lookup table (.xompt, JSON).
     Openmaterial,
-    /// Goniometer table in the style of ASTM E1392 (.astm).
+    /// GoniometerTable table in the style of ASTM E1392 (.astm).
     Astm,
-    /// Goniometer table for Ocean (.csv).
+    /// GoniometerTable table for Ocean (.csv).
     Ocean,
     /// Klems XML for Radiance and WINDOW (.xml).
     Klems,
@@ -55,13 +55,13 @@ impl Format {
 
     /// Writes the file and tells about it.
     pub(super) fn write(self, work: &Work<'_>) -> Result<String, Stop> {
-        use rise_bridge::goniometer::Form;
+        use rise_bridge::goniometer::GoniometerForm;
         match self {
             Self::Pbsdf => polarized::write(work),
             Self::Bsdf => reflection::write(work),
-            Self::Openmaterial => goniometer::write(work, Form::OpenMaterial),
-            Self::Astm => goniometer::write(work, Form::Astm),
-            Self::Ocean => goniometer::write(work, Form::Ocean),
+            Self::Openmaterial => goniometer::write(work, GoniometerForm::OpenMaterial),
+            Self::Astm => goniometer::write(work, GoniometerForm::Astm),
+            Self::Ocean => goniometer::write(work, GoniometerForm::Ocean),
             Self::Klems => klems::write(work),
         }
     }

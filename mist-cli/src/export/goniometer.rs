@@ -3,7 +3,7 @@
 use mist_engine::material::{query, table::GridPatch};
 use rise_bridge::{
     export::Bands,
-    goniometer::{self, Axes, Form},
+    goniometer::{self, GoniometerAxes, GoniometerForm},
 };
 
 use super::{Stop, Work, not_exported, refused, tolerance};
@@ -12,16 +12,16 @@ use super::{Stop, Work, not_exported, refused, tolerance};
 const GRID: &str = "thetai=0:10:80,thetas=0:5:85,phis=0:10:180";
 
 /// Writes the table and tells about it.
-pub(super) fn write(work: &Work<'_>, form: Form) -> Result<String, Stop> {
+pub(super) fn write(work: &Work<'_>, form: GoniometerForm) -> Result<String, Stop> {
     let bands = Bands::new(&work.material, &work.wavelengths).map_err(not_exported)?;
     let grid = work.args.grid.as_deref().unwrap_or(GRID);
     let (axes, spread) = match tolerance(grid)? {
         Some(part) => goniometer::choose_axes(&bands, part).map_err(not_exported)?,
         None => {
             let grid = query::grid(grid, GridPatch::Point).map_err(refused)?;
-            let axes = Axes { thetai: grid.thetai, thetas: grid.thetas, phis: grid.phis };
+            let axes = GoniometerAxes { thetai: grid.thetai, thetas: grid.thetas, phis: grid.phis };
             axes.check().map_err(not_exported)?;
-            let spread = goniometer::spread(&bands, &axes);
+            let spread = goniometer::interpolation_error(&bands, &axes);
             (axes, spread)
         }
     };
@@ -33,6 +33,6 @@ pub(super) fn write(work: &Work<'_>, form: Form) -> Result<String, Stop> {
          (median) and {:.2} % (95 % of the light)\n",
         axes.directions(),
         100.0 * spread.median,
-        100.0 * spread.most,
+        100.0 * spread.quantile_95,
     ))
 }

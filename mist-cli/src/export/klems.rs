@@ -12,12 +12,12 @@ pub(super) fn write(work: &Work<'_>) -> Result<String, Stop> {
     let bands = Bands::new(&work.material, &work.wavelengths).map_err(not_exported)?;
     let name = work.source.stem();
     work.save(|file| klems::write(&bands, &name, file, work.control))?;
-    let spread = klems::spread(&bands).map_err(not_exported)?;
+    let spread = klems::interpolation_error(&bands).map_err(not_exported)?;
     Ok(format!(
         "{}: 145 x 145 patches, CIE X, Y and Z; inside the patches the error of f is {:.2} % (median) \
          and {:.2} % (95 % of the light)\n",
         work.path.display(),
         100.0 * spread.median,
-        100.0 * spread.most,
+        100.0 * spread.quantile_95,
     ))
 }

@@ -1,6 +1,6 @@
 //! `.pbsdf` for Mitsuba.
 
-use rise_bridge::mitsuba::{axes::Axes, pbsdf};
+use rise_bridge::mitsuba::{axes::HalfAngleAxes, pbsdf};
 
 use super::{Stop, Work, not_exported, tolerance};
 
@@ -16,8 +16,8 @@ pub(super) fn write(work: &Work<'_>) -> Result<String, Stop> {
     let (axes, spread) = match tolerance(grid)? {
         Some(part) => pbsdf::choose_axes(&bands, part, args.uniform).map_err(not_exported)?,
         None => {
-            let axes = Axes::parse(grid, args.uniform).map_err(not_exported)?;
-            let spread = pbsdf::spread(&bands, &axes);
+            let axes = HalfAngleAxes::parse(grid, args.uniform).map_err(not_exported)?;
+            let spread = pbsdf::interpolation_error(&bands, &axes);
             (axes, spread)
         }
     };
@@ -30,7 +30,7 @@ pub(super) fn write(work: &Work<'_>) -> Result<String, Stop> {
         work.path.display(),
         bands.nm().len(),
         100.0 * spread.median,
-        100.0 * spread.most,
+        100.0 * spread.quantile_95,
         100.0 * spread.polarization,
     ))
 }

@@ -13,14 +13,14 @@ use mist_engine::{
 };
 use rise_bridge::{
     export::{Bands, ExportError},
-    goniometer::{self, Axes, Form},
+    goniometer::{self, GoniometerForm, HalfAngleAxes},
     klems,
     mitsuba::{
         axes,
-        bsdf::{self, Channels, Size},
+        bsdf::{self, BsdfChannels, BsdfSize},
         pbsdf,
     },
-    rise::{material::Filter, product},
+    rise::{material::SurfacePolarizer, product},
 };
 use serde::Deserialize;
 use serde_json::json;
@@ -70,10 +70,14 @@ const FORMATS: [(&str, Make); 7] = [
     ("bsdf", reflection),
     ("RISEdataBSDF", rings),
     ("xompt", |name, kept, asked, control| {
-        directions(Form::OpenMaterial, name, kept, asked, control)
+        directions(GoniometerForm::OpenMaterial, name, kept, asked, control)
     }),
-    ("astm", |name, kept, asked, control| directions(Form::Astm, name, kept, asked, control)),
-    ("csv", |name, kept, asked, control| directions(Form::Ocean, name, kept, asked, control)),
+    ("astm", |name, kept, asked, control| {
+        directions(GoniometerForm::Astm, name, kept, asked, control)
+    }),
+    ("csv", |name, kept, asked, control| {
+        directions(GoniometerForm::Ocean, name, kept, asked, control)
+    }),
     ("xml", patches),
 ];
 
@@ -118,7 +122,10 @@ fn polarized(
     control: &Control,
 ) -> Result<Vec<u8>, ExportError> {
     let nm = wavelengths(asked, "450,500,550,600,650")?;
-    let axes = axes::Axes::parse(asked.grid.as_deref().unwrap_or("37x46x91"), asked.uniform != 0)?;
+    let axes = axes::HalfAngleAxes::parse(
+        asked.grid.as_deref().unwrap_or("37x46x91"),
+        asked.uniform != 0,
+    )?;
     fits(&[axes.nodes(), nm.len(), 64])?;
     let bands = pbsdf::bands(&kept.prepared, &nm, asked.plugin == 0)?;
     pbsdf::write(&bands, &axes, &description(name), Vec::new(), control)
@@ -131,12 +138,12 @@ fn reflection(
     control: &Control,
 ) -> Result<Vec<u8>, ExportError> {
     let (usual, channels) = match asked.rgb {
-        0 => ("400:10:700", Channels::Spectra),
-        _ => ("360:10:830", Channels::Rgb),
+        0 => ("400:10:700", BsdfChannels::Spectra),
+        _ => ("360:10:830", BsdfChannels::Rgb),
     };
     let bands = Bands::new(&kept.prepared, &wavelengths(asked, usual)?)?;
     let grid = if bands.is_isotropic() { "24x64" } else { "37x20x48" };
-    let size = Size::parse(asked.grid.as_deref().unwrap_or(grid))?;
+    let size = BsdfSize::parse(asked.grid.as_deref().unwrap_or(grid))?;
     fits(&[size.phi_i, size.theta_i, size.side, size.side, 4, bands.nm().len() + 1])?;
     bsdf::write(&bands, channels, size, &description(name), Vec::new(), control)
 }
@@ -147,8 +154,8 @@ const MOST_NODES: usize = 181;
 fn rings(_: &str, kept: &Kept, asked: &Asked, control: &Control) -> Result<Vec<u8>, ExportError> {
     let filter = match asked.filter.as_deref() {
         None => None,
-        Some("s") => Some(Filter::S),
-        Some("p") => Some(Filter::P),
+        Some("s") => Some(SurfacePolarizer::S),
+        Some("p") => Some(SurfacePolarizer::P),
         Some(_) => return Err(ExportError::refused("filter", "expected s or p")),
     };
     let nodes = asked.nodes.unwrap_or(46);
@@ -161,7 +168,7 @@ fn rings(_: &str, kept: &Kept, asked: &Asked, control: &Control) -> Result<Vec<u
 }
 
 fn directions(
-    form: Form,
+    form: GoniometerForm,
     name: &str,
     kept: &Kept,
     asked: &Asked,
@@ -170,7 +177,7 @@ fn directions(
     let axis = |part: &str, given: &Option<String>, usual: &str| {
         query::nodes(part, given.as_deref().unwrap_or(usual))
     };
-    let axes = Axes {
+    let axes = HalfAngleAxes {
         thetai: axis("thetai", &asked.thetai, "0:10:80")?,
         thetas: axis("thetas", &asked.thetas, "0:5:85")?,
         phis: axis("phis", &asked.phis, "0:10:180")?,

@@ -5,13 +5,13 @@ use mist_engine::material::{MaterialError, Prepared};
 use rayon::prelude::*;
 use scattering::{Basis, Geometry, Model, Mueller, Side, vectors::geometry};
 
-use super::ExportError;
+use super::error::ExportError;
 
-/// Differences below this part of the largest element are rounding: a table of an isotropic
-/// material has none, turns of a structured one change the matrix by per cents.
-const SAME: f64 = 1e-7;
+/// Relative differences below this are rounding. Rotation changes the matrix of a structured sample
+/// by per cents.
+const ROUNDING: f64 = 1e-7;
 
-/// One model per wavelength, all of them reflecting from outside.
+/// One model per wavelength, all of type 0 (reflection from outside).
 pub struct Bands {
     nm: Vec<f64>,
     models: Vec<Model>,
@@ -22,8 +22,8 @@ impl Bands {
     ///
     /// # Errors
     ///
-    /// For wavelengths that do not rise or are none, models that transmit, and values that the
-    /// model cannot take.
+    /// If there are no wavelengths or they do not rise, if a model transmits, or if its parameters
+    /// are invalid.
     pub fn new(material: &Prepared, nm: &[f64]) -> Result<Self, ExportError> {
         let good = nm.iter().all(|x| x.is_finite() && *x > 0.0);
         if nm.is_empty() || !good || nm.windows(2).any(|pair| pair[0] >= pair[1]) {
@@ -45,33 +45,35 @@ impl Bands {
         Ok(bands)
     }
 
-    /// The same, for formats that have no room for the rotation of the sample.
+    /// The same bands, for a `format` without rotation of the sample.
     ///
     /// # Errors
     ///
-    /// If a rotation of the sample changes the matrix.
+    /// If rotation of the sample changes the matrix.
     pub fn isotropic(self, format: &str) -> Result<Self, ExportError> {
         if self.is_isotropic() {
             return Ok(self);
         }
         let problem = format!(
-            "the matrices change when the sample is turned, and {format} holds isotropic \
+            "the matrices change when the sample is rotated, and {format} holds isotropic \
              materials only"
         );
         Err(ExportError::refused("material", problem))
     }
 
-    /// Whether turns of the sample change nothing, as far as three directions can tell.
+    /// True if rotation of the sample does not change the matrix in three test directions.
     pub fn is_isotropic(&self) -> bool {
-        let places = [(0.3, 0.5, 0.4), (0.9, 0.6, -1.9), (0.7, 0.75, 0.1)];
-        places.iter().all(|&(theta_i, theta_s, phi_s)| {
+        let directions = [(0.3, 0.5, 0.4), (0.9, 0.6, -1.9), (0.7, 0.75, 0.1)];
+        directions.iter().all(|&(theta_i, theta_s, phi_s)| {
             let at = |rotation: f64| {
                 let at = Geometry { theta_i, theta_s, phi_s, rotation };
                 self.models[0].mueller(&at, Basis::Psps)
             };
-            let still = at(0.0);
-            let size = still.largest();
-            [0.9, 2.1].iter().all(|turn| (at(*turn) - still).largest() <= SAME * size)
+            let reference = at(0.0);
+            let size = reference.largest();
+            [0.9, 2.1]
+                .iter()
+                .all(|rotation| (at(*rotation) - reference).largest() <= ROUNDING * size)
         })
     }
 
@@ -132,7 +134,7 @@ mod tests {
             "sdf": "Anisotropic_Gaussian_Slope_Distribution_Function",
             "sdf.sigmax": 0.1, "sdf.sigmay": 0.4}}"#;
         let problem = bands(ridges, &[550.0]).unwrap().isotropic("a table").err().unwrap();
-        assert!(problem.to_string().contains("turned"), "{problem}");
+        assert!(problem.to_string().contains("rotated"), "{problem}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Why a material cannot be exported.
+//! Errors of exports and of reading exported files.
 
 use std::io;
 
@@ -6,33 +6,33 @@ use mist_engine::material::MaterialError;
 
 use crate::tensor::TensorError;
 
-/// Why a material cannot be exported, or a file not be read.
+/// Errors of exporting a material or reading an exported file.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
-    /// The format has no room for what is asked.
+    /// The format cannot hold the material or the request, or the file is invalid.
     #[error("{part}: {problem}")]
     Refused {
-        /// Which part of the request or of the material.
+        /// The part of the request, the material or the file.
         part: String,
-        /// Why not, and what would do.
+        /// The reason, and what is accepted.
         problem: String,
     },
-    /// The material itself.
+    /// The material is invalid.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// A tensor file that is read.
+    /// The tensor file is invalid.
     #[error(transparent)]
     Tensor(#[from] TensorError),
     /// The file cannot be written.
     #[error("cannot write the file: {0}")]
     Io(#[from] io::Error),
-    /// It was stopped from outside.
+    /// The export was cancelled.
     #[error("cancelled")]
     Cancelled,
 }
 
 impl ExportError {
-    /// A part that the format has no room for.
+    /// A refusal of `part`.
     pub fn refused(part: &str, problem: impl Into<String>) -> Self {
         Self::Refused { part: part.to_owned(), problem: problem.into() }
     }

@@ -1,22 +1,22 @@
-//! The text back into numbers, with the line of every mistake.
+//! Reads goniometer tables; every error names its line.
 
 use serde::Deserialize;
 
-use super::{Form, LIGHT};
+use super::layout::{GoniometerForm, LIGHT_AZIMUTH};
 use crate::export::ExportError;
 
 /// A table of measured or computed directions.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Goniometer {
+pub struct GoniometerTable {
     /// Wavelengths, nm, in the order of the values.
     pub nm: Vec<f64>,
     /// The directions.
-    pub rows: Vec<Row>,
+    pub rows: Vec<GoniometerRow>,
 }
 
-/// One pair of directions, degrees.
+/// A pair of directions in degrees, with its values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct GoniometerRow {
     /// Polar angle of incidence.
     pub thetai: f64,
     /// Polar angle of scattering.
@@ -28,13 +28,13 @@ pub struct Row {
 }
 
 #[derive(Deserialize)]
-struct Document {
-    brdf: Lookup,
+struct OpenMaterialDocument {
+    brdf: OpenMaterialBrdf,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Lookup {
+struct OpenMaterialBrdf {
     wavelengths: Vec<f64>,
     lookup_table: Vec<[f64; 5]>,
 }
@@ -43,16 +43,20 @@ struct Lookup {
 ///
 /// # Errors
 ///
-/// Names the line and what was expected.
-pub fn read(text: &str, form: Form) -> Result<Goniometer, ExportError> {
+/// If the text violates the form; the error names the line and what is expected.
+pub fn read(text: &str, form: GoniometerForm) -> Result<GoniometerTable, ExportError> {
     match form {
-        Form::OpenMaterial => open_material(text),
-        Form::Astm => columns(text, "theta_i,phi_i,theta_s,phi_s,", f64::to_degrees),
-        Form::Ocean => columns(text, "theta-in,phi-in,theta-out,phi-out,", |x| x),
+        GoniometerForm::OpenMaterial => open_material(text),
+        GoniometerForm::Astm => columns(text, "theta_i,phi_i,theta_s,phi_s,", f64::to_degrees),
+        GoniometerForm::Ocean => columns(text, "theta-in,phi-in,theta-out,phi-out,", |x| x),
     }
 }
 
-fn columns(text: &str, head: &str, degrees: fn(f64) -> f64) -> Result<Goniometer, ExportError> {
+fn columns(
+    text: &str,
+    head: &str,
+    degrees: fn(f64) -> f64,
+) -> Result<GoniometerTable, ExportError> {
     let mut stated = None;
     let mut lines = text.lines().enumerate();
     let nm = loop {
@@ -71,14 +75,14 @@ fn columns(text: &str, head: &str, degrees: fn(f64) -> f64) -> Result<Goniometer
     let mut rows = Vec::new();
     for (number, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
         let wrong = || {
-            let problem = format!("expected {} finite numbers with commas between", 4 + nm.len());
+            let problem = format!("expected {} finite numbers separated by commas", 4 + nm.len());
             ExportError::refused(&format!("line {}", number + 1), problem)
         };
         let numbers: Result<Vec<f64>, _> = line.split(',').map(|w| w.trim().parse()).collect();
         let numbers = numbers.map_err(|_| wrong())?;
         let good = numbers.len() == 4 + nm.len() && numbers.iter().all(|x| x.is_finite());
         let (angles, values) = numbers.split_at_checked(4).filter(|_| good).ok_or_else(wrong)?;
-        rows.push(Row {
+        rows.push(GoniometerRow {
             thetai: degrees(angles[0]),
             thetas: degrees(angles[2]),
             phis: from_specular(degrees(angles[3]) - degrees(angles[1])),
@@ -89,10 +93,10 @@ fn columns(text: &str, head: &str, degrees: fn(f64) -> f64) -> Result<Goniometer
         let problem = format!("{} rows, but NUM_POINTS says {}", rows.len(), stated.unwrap_or(0));
         return Err(ExportError::refused("rows", problem));
     }
-    Ok(Goniometer { nm, rows })
+    Ok(GoniometerTable { nm, rows })
 }
 
-/// The azimuth from the specular side, for the difference of the azimuths of viewer and light.
+/// The azimuth relative to the specular side, from the azimuth of the viewer minus that of the light.
 fn from_specular(difference: f64) -> f64 {
     let around = (difference + 180.0).rem_euclid(360.0);
     if around > 180.0 + 1e-9 { around - 360.0 } else { around }
@@ -101,14 +105,14 @@ fn from_specular(difference: f64) -> f64 {
 fn wavelength(name: &str) -> Result<f64, ExportError> {
     let number = name.trim().strip_suffix("nm").and_then(|text| text.parse().ok());
     number.ok_or_else(|| {
-        ExportError::refused("columns", format!("{name:?} is no wavelength such as 450nm"))
+        ExportError::refused("columns", format!("{name:?} is not a wavelength such as 450nm"))
     })
 }
 
-fn open_material(text: &str) -> Result<Goniometer, ExportError> {
-    let document: Document = serde_json::from_str(text)
+fn open_material(text: &str) -> Result<GoniometerTable, ExportError> {
+    let document: OpenMaterialDocument = serde_json::from_str(text)
         .map_err(|error| ExportError::refused("document", error.to_string()))?;
-    let Lookup { wavelengths, lookup_table } = document.brdf;
+    let OpenMaterialBrdf { wavelengths, lookup_table } = document.brdf;
     let count = wavelengths.len();
     if count == 0 || !lookup_table.len().is_multiple_of(count) {
         let problem = format!("{} rows for {count} wavelengths", lookup_table.len());
@@ -130,7 +134,12 @@ fn open_material(text: &str) -> Result<Goniometer, ExportError> {
             values.push(row[4]);
         }
         let [thetai, thetas, phis] = [i, o, phi].map(f64::to_degrees);
-        rows.push(Row { thetai, thetas, phis: from_specular(phis - LIGHT), values });
+        rows.push(GoniometerRow {
+            thetai,
+            thetas,
+            phis: from_specular(phis - LIGHT_AZIMUTH),
+            values,
+        });
     }
-    Ok(Goniometer { nm: wavelengths.iter().map(|m| m * 1e9).collect(), rows })
+    Ok(GoniometerTable { nm: wavelengths.iter().map(|m| m * 1e9).collect(), rows })
 }

@@ -1,4 +1,4 @@
-//! The table as text, direction by direction.
+//! Writes goniometer tables, direction by direction.
 
 use std::io::{self, Write};
 
@@ -8,43 +8,45 @@ use scattering::{Basis, Geometry, Model};
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
-use super::{Axes, Form, LIGHT};
+use super::layout::{GoniometerAxes, GoniometerForm, LIGHT_AZIMUTH};
 use crate::export::{Bands, ExportError};
 
-/// Directions that are evaluated at a time.
+/// Directions per block of evaluation.
 const BLOCK: usize = 4096;
 
-/// Writes the table of `bands` on `axes`; it is never whole in memory.
+/// Writes the table of `bands` on `axes` block by block.
 ///
 /// # Errors
 ///
-/// For axes that do not rise or reach the horizon, materials that are not isotropic or not finite
-/// somewhere, a wish to stop, and an `out` that does not take the text.
+/// If the axes do not rise or reach the horizon, if the material is anisotropic or a value is not
+/// finite, on cancellation, and if `out` fails.
 pub fn write<W: Write>(
     bands: &Bands,
-    axes: &Axes,
-    form: Form,
+    axes: &GoniometerAxes,
+    form: GoniometerForm,
     name: &str,
     mut out: W,
     control: &Control,
 ) -> Result<W, ExportError> {
     axes.check()?;
     if !bands.is_isotropic() {
-        let problem = "the matrices change when the sample is turned; the table has no rotation";
+        let problem = "the matrices change when the sample is rotated; the table has no rotation";
         return Err(ExportError::refused("material", problem));
     }
     match form {
-        Form::OpenMaterial => open_material(bands, axes, name, &mut out, control)?,
-        Form::Astm | Form::Ocean => columns(bands, axes, form, name, &mut out, control)?,
+        GoniometerForm::OpenMaterial => open_material(bands, axes, name, &mut out, control)?,
+        GoniometerForm::Astm | GoniometerForm::Ocean => {
+            columns(bands, axes, form, name, &mut out, control)?
+        }
     }
     out.flush()?;
     Ok(out)
 }
 
 /// Calls `line` with every direction and its values, in order.
-fn each(
+fn for_each_direction(
     bands: &Bands,
-    axes: &Axes,
+    axes: &GoniometerAxes,
     which: std::ops::Range<usize>,
     control: &Control,
     mut line: impl FnMut([f64; 3], &[f64]) -> io::Result<()>,
@@ -82,8 +84,8 @@ fn each(
 /// One row per direction, one column per wavelength.
 fn columns(
     bands: &Bands,
-    axes: &Axes,
-    form: Form,
+    axes: &GoniometerAxes,
+    form: GoniometerForm,
     name: &str,
     out: &mut impl Write,
     control: &Control,
@@ -93,7 +95,7 @@ fn columns(
     let version = env!("CARGO_PKG_VERSION");
     let name = name.replace(['\n', '\r'], " ");
     match form {
-        Form::Astm => {
+        GoniometerForm::Astm => {
             writeln!(out, "PROGRAM mist {version}\nMATERIAL {name}")?;
             writeln!(out, "QUANTITY BRDF in 1/sr, without cosine, unpolarized light")?;
             writeln!(out, "NUM_POINTS {}", axes.directions())?;
@@ -106,29 +108,36 @@ fn columns(
             writeln!(out, "theta-in,phi-in,theta-out,phi-out,{waves}")?;
         }
     }
-    let angle = |degrees: f64| if form == Form::Astm { degrees.to_radians() } else { degrees };
+    let angle =
+        |degrees: f64| if form == GoniometerForm::Astm { degrees.to_radians() } else { degrees };
     let mut done = 0;
-    each(bands, axes, 0..bands.nm().len(), control, |[thetai, thetas, phis], values| {
-        let [i, light, s, phi] = [thetai, LIGHT, thetas, phis].map(angle);
-        write!(out, "{i},{light},{s},{phi}")?;
-        for value in values {
-            write!(out, ",{value:e}")?;
-        }
-        done += 1;
-        control.report(f64::from(done) / axes.directions() as f64);
-        writeln!(out)
-    })
+    for_each_direction(
+        bands,
+        axes,
+        0..bands.nm().len(),
+        control,
+        |[thetai, thetas, phis], values| {
+            let [i, light, s, phi] = [thetai, LIGHT_AZIMUTH, thetas, phis].map(angle);
+            write!(out, "{i},{light},{s},{phi}")?;
+            for value in values {
+                write!(out, ",{value:e}")?;
+            }
+            done += 1;
+            control.report(f64::from(done) / axes.directions() as f64);
+            writeln!(out)
+        },
+    )
 }
 
 fn open_material(
     bands: &Bands,
-    axes: &Axes,
+    axes: &GoniometerAxes,
     name: &str,
     out: &mut impl Write,
     control: &Control,
 ) -> Result<(), ExportError> {
     let metres = |nm: f64| nm * 1e-9;
-    let axes = &Axes { phis: turned_once(&axes.phis), ..axes.clone() };
+    let axes = &GoniometerAxes { phis: normalized_azimuths(&axes.phis), ..axes.clone() };
     let metadata = json!({
         "name": name,
         "uuid": uuid(&format!("{name} {:?} {axes:?}", bands.nm())),
@@ -149,9 +158,9 @@ fn open_material(
     )?;
     let mut comma = "\n";
     for (number, nm) in bands.nm().iter().enumerate() {
-        each(bands, axes, number..number + 1, control, |direction, values| {
+        for_each_direction(bands, axes, number..number + 1, control, |direction, values| {
             let [i, o, phi] = direction.map(f64::to_radians);
-            // What is not light cannot be negative; rounding can.
+            // Rounding can make a value negative; the format refuses negative values.
             write!(out, "{comma}[{:e},{i},{o},{phi},{:e}]", metres(*nm), values[0].max(0.0))?;
             comma = ",\n";
             Ok(())
@@ -162,15 +171,15 @@ fn open_material(
     Ok(())
 }
 
-/// The azimuths in 0 … 360°, rising: the format has no others.
-fn turned_once(phis: &[f64]) -> Vec<f64> {
+/// The azimuths in 0 … 360°, rising, as the format requires.
+fn normalized_azimuths(phis: &[f64]) -> Vec<f64> {
     let mut phis: Vec<f64> = phis.iter().map(|phi| phi.rem_euclid(360.0)).collect();
     phis.sort_by(f64::total_cmp);
     phis.dedup();
     phis
 }
 
-/// A name of its own for what `text` says: version 8 of RFC 9562.
+/// A UUID from the digest of `text`: version 8 of RFC 9562.
 fn uuid(text: &str) -> String {
     let mut bytes = [0; 16];
     bytes.copy_from_slice(&Sha256::digest(text)[..16]);

@@ -1,4 +1,4 @@
-//! The nodes of a table of half and difference angles, and the directions that stand for them.
+//! The nodes of a table in half and difference angles, and their directions.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -7,16 +7,16 @@ use glam::DVec3;
 use super::frame::HalfAngles;
 use crate::export::ExportError;
 
-/// Directions lower than this z are lifted to it: the nodes there are filled.
+/// The lowest z of a direction; nodes below it are evaluated at this height.
 pub const LOWEST: f64 = 0.02;
-/// In the place of θ_d = 0 and θ_h = 0, where directions lose their azimuth; radians.
-const AWAY: f64 = 1e-4;
-/// Nodes of one axis, at most.
-const MOST: usize = 4096;
+/// Replaces θ_d = 0 and θ_h = 0, where directions have no azimuth; radians.
+const OFF_AXIS: f64 = 1e-4;
+/// Maximum number of nodes per axis.
+const MAX_NODES: usize = 4096;
 
 /// Nodes in radians, rising; they are 32-bit numbers, as the file holds them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axes {
+pub struct HalfAngleAxes {
     /// From −π to π, both included.
     pub phi_d: Vec<f32>,
     /// From 0 to π/2.
@@ -25,15 +25,15 @@ pub struct Axes {
     pub theta_h: Vec<f32>,
 }
 
-impl Axes {
-    /// So many nodes per axis; θ_h quadratic (i/(n − 1))²·π/2, or evenly spaced.
+impl HalfAngleAxes {
+    /// Axes with `counts` nodes of φ_d, θ_d and θ_h; θ_h is quadratic, (i/(n − 1))²·π/2, or uniform.
     ///
     /// # Errors
     ///
-    /// For axes of less than two nodes or absurdly many.
+    /// If an axis has fewer than 2 or more than 4096 nodes.
     pub fn new(counts: [usize; 3], uniform: bool) -> Result<Self, ExportError> {
-        if counts.iter().any(|n| !(2..=MOST).contains(n)) {
-            let problem = format!("every axis has from 2 to {MOST} nodes, not {counts:?}");
+        if counts.iter().any(|n| !(2..=MAX_NODES).contains(n)) {
+            let problem = format!("every axis has from 2 to {MAX_NODES} nodes, not {counts:?}");
             return Err(ExportError::refused("grid", problem));
         }
         let part = |n: usize| (0..n).map(move |i| i as f64 / (n - 1) as f64);
@@ -45,11 +45,11 @@ impl Axes {
         })
     }
 
-    /// From `37x46x91`: the nodes of φ_d, θ_d and θ_h.
+    /// Parses numbers of nodes such as `37x46x91` (φ_d, θ_d, θ_h).
     ///
     /// # Errors
     ///
-    /// For other texts, and as [`Axes::new`].
+    /// If the text has another form, and as [`HalfAngleAxes::new`].
     pub fn parse(text: &str, uniform: bool) -> Result<Self, ExportError> {
         let numbers: Result<Vec<usize>, _> =
             text.split('x').map(|word| word.trim().parse()).collect();
@@ -70,7 +70,7 @@ impl Axes {
         [self.phi_d.len(), self.theta_d.len(), self.theta_h.len()]
     }
 
-    /// All nodes.
+    /// The number of nodes.
     pub fn nodes(&self) -> usize {
         self.counts().iter().product()
     }
@@ -85,23 +85,24 @@ impl Axes {
     }
 }
 
-/// The directions (l, v) in which a material is asked for the node `at`.
+/// The directions (l, v) at which a material is evaluated for the node `at`.
 ///
-/// Where they have no azimuth the node stands aside by 10⁻⁴ rad; a direction that is lower than
-/// [`LOWEST`] is lifted to it at its azimuth.
-pub fn asked_directions(at: &HalfAngles) -> (DVec3, DVec3) {
-    let aside = HalfAngles { theta_d: at.theta_d.max(AWAY), theta_h: at.theta_h.max(AWAY), ..*at };
-    let (l, v) = aside.directions();
+/// Nodes without azimuth are moved by 10⁻⁴ rad; a direction below [`LOWEST`] is raised to it at its
+/// azimuth.
+pub fn node_directions(at: &HalfAngles) -> (DVec3, DVec3) {
+    let moved =
+        HalfAngles { theta_d: at.theta_d.max(OFF_AXIS), theta_h: at.theta_h.max(OFF_AXIS), ..*at };
+    let (l, v) = moved.directions();
     (lifted(l), lifted(v))
 }
 
-/// `w` at its azimuth, but not lower than [`LOWEST`].
+/// The direction `w`, raised to [`LOWEST`] at its azimuth if it is lower.
 pub fn lifted(w: DVec3) -> DVec3 {
     if w.z >= LOWEST {
         return w;
     }
-    let level = w.truncate().try_normalize().unwrap_or(glam::DVec2::X);
-    (level * (1.0 - LOWEST * LOWEST).sqrt()).extend(LOWEST)
+    let horizontal = w.truncate().try_normalize().unwrap_or(glam::DVec2::X);
+    (horizontal * (1.0 - LOWEST * LOWEST).sqrt()).extend(LOWEST)
 }
 
 #[cfg(test)]
@@ -110,24 +111,24 @@ mod tests {
 
     #[test]
     fn azimuths_reach_both_ends_and_half_angles_are_dense_at_the_normal() {
-        let axes = Axes::parse("37x46x91", false).unwrap();
+        let axes = HalfAngleAxes::parse("37x46x91", false).unwrap();
         assert_eq!(axes.counts(), [37, 46, 91]);
         assert_eq!((axes.phi_d[0], axes.phi_d[36]), (-(PI as f32), PI as f32));
         assert_eq!(axes.phi_d[18], 0.0);
         assert_eq!(axes.theta_h[90], FRAC_PI_2 as f32);
         assert!(axes.theta_h[1] < 2e-4 && axes.theta_h[90] - axes.theta_h[89] > 0.03);
-        assert!(Axes::parse("37x46", false).is_err());
-        assert!(Axes::parse("37x1x91", false).is_err());
-        assert!(Axes::parse("37x46x1e9", true).is_err());
+        assert!(HalfAngleAxes::parse("37x46", false).is_err());
+        assert!(HalfAngleAxes::parse("37x1x91", false).is_err());
+        assert!(HalfAngleAxes::parse("37x46x1e9", true).is_err());
     }
 
     #[test]
     fn every_node_has_two_directions_above_the_horizon() {
-        let axes = Axes::parse("5x4x4", true).unwrap();
+        let axes = HalfAngleAxes::parse("5x4x4", true).unwrap();
         for i in 0..5 {
             for j in 0..4 {
                 for k in 0..4 {
-                    let (l, v) = asked_directions(&axes.node([i, j, k]));
+                    let (l, v) = node_directions(&axes.node([i, j, k]));
                     for w in [l, v] {
                         assert!(w.z >= LOWEST && (w.length() - 1.0).abs() < 1e-12, "{w}");
                     }

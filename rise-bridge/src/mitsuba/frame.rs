@@ -2,21 +2,21 @@
 //!
 //! With l to the light and v to the viewer, unit vectors away from the surface in the local frame
 //! (z is the normal), light travels along k_i = −l and then k_s = v. In these frames x, y = k × x
-//! and k are right handed, Q > 0 is light along x, and V > 0 turns clockwise for who looks towards
-//! the light: the opposite of ours, so D = diag(1, 1, 1, −1) stands on both sides of a matrix.
+//! and k are right handed, Q > 0 is light along x, and V > 0 turns clockwise seen towards the light,
+//! the opposite of our sign: a matrix is multiplied by D = diag(1, 1, 1, −1) from both sides.
 //!
 //! | frame | x of both beams |
 //! | --- | --- |
 //! | a table of `measured_polarized` | unit(l × v): our basis `plane` |
 //! | everything inside the renderer | [`stokes_basis`] of k_i and of k_s |
 //!
-//! A turn of the frame by θ about k, from x towards y, multiplies Stokes vectors by
+//! Rotation of the frame by θ about k, from x towards y, multiplies Stokes vectors by
 //!
 //! $$ \mathbf R(\theta) = \begin{pmatrix} 1&0&0&0\\ 0&\cos 2\theta&\sin 2\theta&0\\
 //!    0&-\sin 2\theta&\cos 2\theta&0\\ 0&0&0&1 \end{pmatrix} $$
 //!
-//! T. Duff et al., *Building an Orthonormal Basis, Revisited*, JCGT 6(1), 1 (2017), is where the
-//! basis of a direction is from.
+//! The basis of a direction is that of T. Duff et al., *Building an Orthonormal Basis, Revisited*,
+//! JCGT 6(1), 1 (2017).
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -33,8 +33,8 @@ pub fn stokes_basis(k: DVec3) -> DVec3 {
     DVec3::new(1.0 + sign * k.x * k.x * a, sign * k.x * k.y * a, -sign * k.x)
 }
 
-/// D M D: a matrix with V > 0 right (Mitsuba) from one with V > 0 left (ours), and back.
-pub fn with_other_hand(mut m: Mueller) -> Mueller {
+/// D M D: converts between matrices with V > 0 right (Mitsuba) and V > 0 left (ours).
+pub fn with_opposite_handedness(mut m: Mueller) -> Mueller {
     for k in 0..3 {
         m[(k, 3)] = -m[(k, 3)];
         m[(3, k)] = -m[(3, k)];
@@ -42,7 +42,7 @@ pub fn with_other_hand(mut m: Mueller) -> Mueller {
     m
 }
 
-/// R: Stokes vectors in a frame that is turned by `angle` (radians) from x towards y.
+/// R: transforms Stokes vectors to a frame rotated by `angle` (radians) from x towards y.
 pub fn rotator(angle: f64) -> Mueller {
     let (s, c) = (2.0 * angle).sin_cos();
     Mueller([[1.0, 0.0, 0.0, 0.0], [0.0, c, s, 0.0], [0.0, -s, c, 0.0], [0.0, 0.0, 0.0, 1.0]])
@@ -66,7 +66,7 @@ pub fn from_psps(psps: Mueller, to_light: DVec3, to_viewer: DVec3) -> Mueller {
     let s_i = horizontal(k_i).unwrap_or(DVec3::Y);
     // Along the normal s is perpendicular to the plane of incidence.
     let s_s = horizontal(k_s).unwrap_or(s_i);
-    turned(with_other_hand(psps), (k_i, s_i), (k_s, s_s))
+    rotated(with_opposite_handedness(psps), (k_i, s_i), (k_s, s_s))
 }
 
 /// The matrix of a table (`x` = unit(l × v) for both beams) in the [`stokes_basis`] of both beams.
@@ -75,11 +75,11 @@ pub fn from_psps(psps: Mueller, to_light: DVec3, to_viewer: DVec3) -> Mueller {
 pub fn from_table(table: Mueller, to_light: DVec3, to_viewer: DVec3) -> Mueller {
     let (k_i, k_s) = (-to_light.normalize(), to_viewer.normalize());
     let x = to_light.cross(to_viewer).normalize();
-    turned(table, (k_i, x), (k_s, x))
+    rotated(table, (k_i, x), (k_s, x))
 }
 
 /// `m` with the axes x of the beams replaced by those of [`stokes_basis`].
-fn turned(m: Mueller, (k_i, x_i): (DVec3, DVec3), (k_s, x_s): (DVec3, DVec3)) -> Mueller {
+fn rotated(m: Mueller, (k_i, x_i): (DVec3, DVec3), (k_s, x_s): (DVec3, DVec3)) -> Mueller {
     let incoming = rotator(angle(k_i, x_i, stokes_basis(k_i)));
     let outgoing = rotator(angle(k_s, x_s, stokes_basis(k_s)));
     outgoing * m * incoming.transposed()
@@ -97,8 +97,8 @@ pub struct HalfAngles {
 }
 
 impl HalfAngles {
-    /// Of light from `to_light`, seen from `to_viewer`; nothing for mirror images (the azimuth is
-    /// then not defined) and for opposite directions.
+    /// The half angles of light from `to_light`, seen from `to_viewer`; none for mirror directions,
+    /// whose azimuth is not defined, and for opposite directions.
     pub fn of(to_light: DVec3, to_viewer: DVec3) -> Option<Self> {
         let h = (to_light + to_viewer).try_normalize()?;
         let b = DVec3::Z.cross(h).try_normalize()?;
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_over_the_scattering_plane_and_the_way_over_psps_agree() {
+    fn conversion_from_the_scattering_plane_equals_conversion_from_psps() {
         let class = &models::find("Diffuse_Subsurface_BRDF_Model").unwrap().class;
         let model = models::build(&Node::with_defaults(class, Mode::Sound)).unwrap();
         for (l, v) in [
@@ -168,7 +168,7 @@ mod tests {
             let (l, v) = (l.normalize(), v.normalize());
             let ask = |basis| model.evaluate_local(&[(l, v)], basis)[0];
             let direct = from_psps(ask(Basis::Psps), l, v);
-            let table = with_other_hand(ask(Basis::Plane));
+            let table = with_opposite_handedness(ask(Basis::Plane));
             let error = (direct - from_table(table, l, v)).largest();
             assert!(error < 1e-14, "{l} {v}: {error:e}");
         }

@@ -1,14 +1,14 @@
-//! `.mspd` back into spectra.
+//! Reads `.mspd`.
 
 use mist_engine::colour::ColourTable;
 
-use super::{ReadError, mtab::describe, text::TextTable};
+use super::{error::ReadError, mtab::describe, text::TextTable};
 use crate::column;
 
 /// The spectra of one Stokes component.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spectra {
-    /// What the header says, without rows.
+pub struct SpectraTable {
+    /// The header; the table has no rows.
     pub table: ColourTable,
     /// The Stokes component: `I`, `Q`, `U` or `V`.
     pub component: char,
@@ -16,7 +16,7 @@ pub struct Spectra {
     pub rows: Vec<SpectraRow>,
 }
 
-/// One spectrum and the patch that it belongs to.
+/// One spectrum with its patch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectraRow {
     /// Values of the leading columns.
@@ -39,7 +39,7 @@ pub struct SpectraRow {
 ///
 /// If the text is no table, is cut off or was changed, or if its columns are not the wavelengths
 /// that its header names.
-pub fn mspd(text: &str) -> Result<Spectra, ReadError> {
+pub fn mspd(text: &str) -> Result<SpectraTable, ReadError> {
     let text = TextTable::parse(text)?;
     let table = describe(&text)?;
     let stokes = text.line("stokes")?;
@@ -48,11 +48,11 @@ pub fn mspd(text: &str) -> Result<Spectra, ReadError> {
         "Q" => 'Q',
         "U" => 'U',
         "V" => 'V',
-        _ => return Err(stokes.error("I, Q, U or V belongs here")),
+        _ => return Err(stokes.error("expected I, Q, U or V")),
     };
     let leading = table.leading.len();
-    let place = column::PLACE.len();
-    let (found, expected) = (text.columns.len(), leading + place + table.wavelengths.len());
+    let patch = column::PATCH.len();
+    let (found, expected) = (text.columns.len(), leading + patch + table.wavelengths.len());
     if found != expected {
         return Err(text
             .line("wavelengths")?
@@ -64,7 +64,7 @@ pub fn mspd(text: &str) -> Result<Spectra, ReadError> {
         thetas: row[leading + 1],
         phis: row[leading + 2],
         omega: row[leading + 3],
-        values: row[leading + place..].to_vec(),
+        values: row[leading + patch..].to_vec(),
     });
-    Ok(Spectra { component, rows: rows.collect(), table })
+    Ok(SpectraTable { component, rows: rows.collect(), table })
 }

@@ -1,10 +1,10 @@
-//! `MIST-TABLE 1` back into a colour table.
+//! Reads `.mtab` (`MIST-TABLE 1`).
 
 use mist_engine::colour::{Albedo, Axis, ColourRow, ColourTable, Layout, Patch, Symmetry};
 
 use super::{
-    ReadError,
-    text::{Line, TextTable},
+    error::ReadError,
+    text::{HeaderLine, TextTable},
 };
 use crate::column;
 
@@ -14,16 +14,16 @@ use crate::column;
 ///
 /// # Errors
 ///
-/// If the text is no table, is cut off or was changed.
+/// If the text is not a table, is truncated or was changed.
 pub fn mtab(text: &str) -> Result<ColourTable, ReadError> {
     let text = TextTable::parse(text)?;
     let mut table = describe(&text)?;
-    let columns = Columns::find(&text, table.leading.len(), table.stokes)?;
+    let columns = MtabColumns::find(&text, table.leading.len(), table.stokes)?;
     table.rows = text.rows.iter().map(|row| columns.row(row)).collect::<Result<_, _>>()?;
     Ok(table)
 }
 
-/// Everything that the header says; no rows yet.
+/// The header as a table without rows.
 pub(super) fn describe(text: &TextTable<'_>) -> Result<ColourTable, ReadError> {
     let thetai = text.column("thetai")?;
     Ok(ColourTable {
@@ -58,16 +58,16 @@ fn stokes(text: &TextTable<'_>) -> usize {
 }
 
 /// `FIRST STEP LAST nm` or `list W1 … WN nm`.
-fn wavelengths(line: Line<'_>) -> Result<Vec<f64>, ReadError> {
+fn wavelengths(line: HeaderLine<'_>) -> Result<Vec<f64>, ReadError> {
     let list = line.value.strip_suffix("nm").ok_or_else(|| line.error("the unit nm is missing"))?;
     if let Some(list) = list.strip_prefix("list") {
         return list.split_ascii_whitespace().map(|word| line.parse(word)).collect();
     }
     let words = list.split_ascii_whitespace().map(|word| line.parse(word));
-    let [first, step, last]: [f64; 3] = words
-        .collect::<Result<Vec<_>, _>>()?
-        .try_into()
-        .map_err(|_| line.error("first, step and last belong here"))?;
+    let [first, step, last]: [f64; 3] =
+        words.collect::<Result<Vec<_>, _>>()?.try_into().map_err(|_| {
+            line.error("expected the first wavelength, the step and the last wavelength")
+        })?;
     let steps = ((last - first) / step).round();
     if !(0.0..MAX_WAVELENGTHS).contains(&steps) {
         return Err(line.error("the steps do not lead from the first to the last"));
@@ -75,12 +75,12 @@ fn wavelengths(line: Line<'_>) -> Result<Vec<f64>, ReadError> {
     Ok((0..=steps as usize).map(|i| first + i as f64 * step).collect())
 }
 
-/// More wavelengths than any table has: a wrong step cannot ask for all memory.
+/// Maximum number of wavelengths; limits the memory for an invalid step.
 const MAX_WAVELENGTHS: f64 = 1e6;
 
-fn space(line: Line<'_>) -> Result<String, ReadError> {
+fn space(line: HeaderLine<'_>) -> Result<String, ReadError> {
     let name = line.value.strip_suffix(" linear");
-    name.map(str::to_owned).ok_or_else(|| line.error("only linear values are known"))
+    name.map(str::to_owned).ok_or_else(|| line.error("only linear values are supported"))
 }
 
 fn layout(text: &TextTable<'_>) -> Result<Layout, ReadError> {
@@ -96,31 +96,31 @@ fn layout(text: &TextTable<'_>) -> Result<Layout, ReadError> {
             text.check_count(product.unwrap_or(usize::MAX), "\"# axis\"")?;
             Ok(Layout::Grid { axes, symmetry: symmetry(text.line("symmetry")?)? })
         }
-        _ => Err(line.error("\"list N\" or \"grid\" belongs here")),
+        _ => Err(line.error("expected \"list N\" or \"grid\"")),
     }
 }
 
-fn axis(line: Line<'_>) -> Result<Axis, ReadError> {
+fn axis(line: HeaderLine<'_>) -> Result<Axis, ReadError> {
     let mut words = line.words();
     let (Some(name), Some(count)) = (words.next(), words.next()) else {
-        return Err(line.error("a name, a number of nodes and the nodes belong here"));
+        return Err(line.error("expected a name, the number of nodes and the nodes"));
     };
     let nodes = words.map(|word| line.parse(word)).collect::<Result<Vec<f64>, _>>()?;
     if nodes.len() != line.parse::<usize>(count)? {
-        return Err(line.error(format!("{} nodes where {count} are promised", nodes.len())));
+        return Err(line.error(format!("{} nodes where {count} are stated", nodes.len())));
     }
     Ok(Axis { name: name.to_owned(), nodes })
 }
 
-fn symmetry(line: Line<'_>) -> Result<Symmetry, ReadError> {
+fn symmetry(line: HeaderLine<'_>) -> Result<Symmetry, ReadError> {
     match line.value {
         "mirror" => Ok(Symmetry::Mirror),
         "none" => Ok(Symmetry::None),
-        _ => Err(line.error("\"mirror\" or \"none\" belongs here")),
+        _ => Err(line.error("expected \"mirror\" or \"none\"")),
     }
 }
 
-fn patch(line: Line<'_>) -> Result<Patch, ReadError> {
+fn patch(line: HeaderLine<'_>) -> Result<Patch, ReadError> {
     Ok(match line.words().collect::<Vec<_>>()[..] {
         ["point"] => Patch::Point,
         ["cell"] => Patch::Cell,
@@ -130,34 +130,34 @@ fn patch(line: Line<'_>) -> Result<Patch, ReadError> {
     })
 }
 
-fn albedo(line: Line<'_>) -> Result<Albedo, ReadError> {
+fn albedo(line: HeaderLine<'_>) -> Result<Albedo, ReadError> {
     let [thetai, r, g, b, intensity] = line.numbers()?;
     Ok(Albedo { thetai, rgb: [r, g, b], intensity })
 }
 
-/// Where the numbers of a row stand.
-struct Columns {
+/// The indices of the columns.
+struct MtabColumns {
     leading: usize,
-    place: [usize; 4],
+    patch: [usize; 4],
     colours: Vec<[usize; 4]>,
     xyz: Option<[usize; 3]>,
     flags: usize,
 }
 
-impl Columns {
+impl MtabColumns {
     fn find(text: &TextTable<'_>, leading: usize, stokes: usize) -> Result<Self, ReadError> {
         let colour = |at| -> Result<[usize; 4], ReadError> {
             let [r, g, b, i] = column::colour_names(at).map(|name| text.column(&name));
             Ok([r?, g?, b?, i?])
         };
-        let [thetai, thetas, phis, omega] = column::PLACE.map(|name| text.column(name));
+        let [thetai, thetas, phis, omega] = column::PATCH.map(|name| text.column(name));
         let xyz = match column::XYZ.map(|name| text.column(name)) {
             [Ok(x), Ok(y), Ok(z)] => Some([x, y, z]),
             _ => None,
         };
         Ok(Self {
             leading,
-            place: [thetai?, thetas?, phis?, omega?],
+            patch: [thetai?, thetas?, phis?, omega?],
             colours: (0..stokes).map(colour).collect::<Result<_, _>>()?,
             xyz,
             flags: text.column(column::FLAGS)?,
@@ -165,7 +165,7 @@ impl Columns {
     }
 
     fn row(&self, values: &[f64]) -> Result<ColourRow, ReadError> {
-        let [thetai, thetas, phis, omega] = self.place.map(|at| values[at]);
+        let [thetai, thetas, phis, omega] = self.patch.map(|at| values[at]);
         let mut row = ColourRow {
             leading: values[..self.leading].to_vec(),
             thetai,

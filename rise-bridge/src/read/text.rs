@@ -1,15 +1,15 @@
-//! What `.mtab` and `.mspd` have in common: header lines, columns, rows, the proof of the end.
+//! Common parts of `.mtab` and `.mspd`: header lines, columns, rows, checksum.
 
 use std::str::FromStr;
 
-use super::ReadError;
+use super::error::ReadError;
 use crate::write::{MAGIC, checksum};
 
-/// The parts of a text table; complete, in that the rows were counted and their checksum compared.
+/// The parts of a text table, after comparison of the number of rows and the checksum.
 #[derive(Debug)]
 pub(super) struct TextTable<'a> {
     /// Header lines in their order, `columns` excepted.
-    header: Vec<Line<'a>>,
+    header: Vec<HeaderLine<'a>>,
     /// Names of the columns.
     pub(super) columns: Vec<&'a str>,
     /// One number per column in each row.
@@ -18,14 +18,14 @@ pub(super) struct TextTable<'a> {
 
 /// One header line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line<'a> {
+pub(super) struct HeaderLine<'a> {
     number: usize,
     key: &'a str,
-    /// What follows the key.
+    /// The text after the key.
     pub(super) value: &'a str,
 }
 
-impl<'a> Line<'a> {
+impl<'a> HeaderLine<'a> {
     /// An error at this line.
     pub(super) fn error(&self, problem: impl Into<String>) -> ReadError {
         ReadError::Header { line: self.number, key: self.key.into(), problem: problem.into() }
@@ -44,7 +44,7 @@ impl<'a> Line<'a> {
     /// All words as numbers, which must be `N`.
     pub(super) fn numbers<const N: usize>(&self) -> Result<[f64; N], ReadError> {
         let list = self.words().map(|word| self.parse(word)).collect::<Result<Vec<f64>, _>>()?;
-        list.try_into().map_err(|_| self.error(format!("{N} numbers belong here")))
+        list.try_into().map_err(|_| self.error(format!("{N} numbers are expected")))
     }
 }
 
@@ -75,12 +75,12 @@ impl<'a> TextTable<'a> {
                     match key {
                         "end" => {
                             let rows = &text[rows_text.unwrap_or(start)..start];
-                            table.check_end(Line { number, key, value }, rows)?;
+                            table.check_end(HeaderLine { number, key, value }, rows)?;
                             ended = true;
                         }
                         _ if rows_text.is_some() => return Err(ReadError::LateHeader(number)),
                         "columns" => table.columns = value.split_ascii_whitespace().collect(),
-                        _ => table.header.push(Line { number, key, value }),
+                        _ => table.header.push(HeaderLine { number, key, value }),
                     }
                 }
                 None => {
@@ -116,7 +116,7 @@ impl<'a> TextTable<'a> {
         Ok(())
     }
 
-    fn check_end(&self, end: Line<'_>, rows: &str) -> Result<(), ReadError> {
+    fn check_end(&self, end: HeaderLine<'_>, rows: &str) -> Result<(), ReadError> {
         let mut words = end.words();
         let (Some(count), Some(stated), None) = (words.next(), words.next(), words.next()) else {
             return Err(end.error("the number of rows and their checksum belong here"));
@@ -136,7 +136,7 @@ impl<'a> TextTable<'a> {
     }
 
     /// The lines with this key.
-    pub(super) fn lines<'s>(&'s self, key: &'s str) -> impl Iterator<Item = Line<'a>> + 's {
+    pub(super) fn lines<'s>(&'s self, key: &'s str) -> impl Iterator<Item = HeaderLine<'a>> + 's {
         self.header.iter().copied().filter(move |line| line.key == key)
     }
 
@@ -145,7 +145,7 @@ impl<'a> TextTable<'a> {
     /// # Errors
     ///
     /// If there is none.
-    pub(super) fn line(&self, key: &'static str) -> Result<Line<'a>, ReadError> {
+    pub(super) fn line(&self, key: &'static str) -> Result<HeaderLine<'a>, ReadError> {
         self.lines(key).next().ok_or(ReadError::Missing(key))
     }
 

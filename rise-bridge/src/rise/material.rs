@@ -1,14 +1,14 @@
-//! What a scene says about its materials: in comments for us, or in RISE's own parameters.
+//! The materials of a scene, from comments for mist or from RISE's own parameters.
 //!
-//! Inside a material's chunk, where RISE reads over comments:
+//! Comments inside a material's chunk, which RISE ignores:
 //!
 //! ```text
 //! # mist: model = Shadowed_Facet_BRDF_Model      or   # mist: material = gold.json
 //! # mist: substrate = gold.nk                    any parameter of the model
-//! # mist: filter = p                             s or p: the light behind a filter too
+//! # mist: filter = p                             s or p: a second table behind a polarizer
 //! ```
 //!
-//! Without them three of RISE's materials become models, with these changes of definition:
+//! Without comments three of RISE's materials become models, with these definitions:
 //!
 //! | RISE | model |
 //! | --- | --- |
@@ -23,66 +23,66 @@ use std::collections::BTreeMap;
 
 use mist_engine::{Files, material::Material};
 
-use super::scene::Chunk;
+use super::scene::SceneChunk;
 use crate::export::ExportError;
 
-/// A filter that follows the s and p directions of every ray.
+/// A polarizer along the s or p direction of every ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Filter {
-    /// Lets s-polarized light through.
+pub enum SurfacePolarizer {
+    /// Transmits s-polarized light.
     S,
-    /// Lets p-polarized light through.
+    /// Transmits p-polarized light.
     P,
 }
 
 /// A material of a scene as a model with parameters.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Described {
+pub struct SceneMaterial {
     /// Its name in the scene.
     pub name: String,
-    /// Which chunk it is.
+    /// The index of its chunk.
     pub chunk: usize,
-    /// The model with its parameters and the data files that were made for it.
+    /// The model with its parameters and generated data files.
     pub material: Material,
-    /// The filter of a second table.
-    pub filter: Option<Filter>,
+    /// The polarizer of a second table.
+    pub filter: Option<SurfacePolarizer>,
 }
 
-/// The materials of `chunks` that have comments for us; with `derive`, also those that RISE's own
-/// parameters describe. What is left as it is comes back with the reason.
+/// The materials of `chunks` with comments for mist; with `derive`, also those that RISE's own
+/// parameters describe. The second list has the skipped materials with the reason.
 ///
 /// # Errors
 ///
-/// For comments that say nothing usable, and files that are missing.
-pub fn described(
-    chunks: &[Chunk],
+/// If a comment is invalid or a file is missing.
+pub fn scene_materials(
+    chunks: &[SceneChunk],
     files: &dyn Files,
     derive: bool,
-) -> Result<(Vec<Described>, Vec<String>), ExportError> {
-    let (mut found, mut left) = (Vec::new(), Vec::new());
+) -> Result<(Vec<SceneMaterial>, Vec<String>), ExportError> {
+    let (mut found, mut skipped) = (Vec::new(), Vec::new());
     for (number, chunk) in chunks.iter().enumerate() {
         if !chunk.keyword.ends_with("_material") {
             continue;
         }
         if !chunk.notes.is_empty() {
-            found.push(noted(chunk, number, files)?);
+            found.push(commented(chunk, number, files)?);
         } else if derive {
             match derived::material(chunk, chunks, files) {
-                Ok(material) => found.push(Described {
+                Ok(material) => found.push(SceneMaterial {
                     name: safe_name(chunk)?,
                     chunk: number,
                     material,
                     filter: None,
                 }),
-                Err(error) => left.push(format!("{}: {error}", chunk.name())),
+                Err(error) => skipped.push(format!("{}: {error}", chunk.name())),
             }
         }
     }
-    Ok((found, left))
+    Ok((found, skipped))
 }
 
-/// The name of a chunk, which becomes the name of files.
-fn safe_name(chunk: &Chunk) -> Result<String, ExportError> {
+/// The name of a chunk as a part of file names.
+fn safe_name(chunk: &SceneChunk) -> Result<String, ExportError> {
     let name = chunk.name();
     let good = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
     if !name.is_empty() && !name.starts_with('.') && name.chars().all(good) {
@@ -92,7 +92,12 @@ fn safe_name(chunk: &Chunk) -> Result<String, ExportError> {
     Err(ExportError::refused(&format!("scene, line {}", chunk.line), problem))
 }
 
-fn noted(chunk: &Chunk, number: usize, files: &dyn Files) -> Result<Described, ExportError> {
+/// The material that the comments of a chunk describe.
+fn commented(
+    chunk: &SceneChunk,
+    number: usize,
+    files: &dyn Files,
+) -> Result<SceneMaterial, ExportError> {
     let wrong = |problem: String| {
         ExportError::refused(&format!("scene, line {}, mist:", chunk.line), problem)
     };
@@ -110,14 +115,14 @@ fn noted(chunk: &Chunk, number: usize, files: &dyn Files) -> Result<Described, E
                     files: BTreeMap::new(),
                 });
             }
-            ("filter", "s") => filter = Some(Filter::S),
-            ("filter", "p") => filter = Some(Filter::P),
-            ("filter", other) => return Err(wrong(format!("filter {other:?} is none of s and p"))),
+            ("filter", "s") => filter = Some(SurfacePolarizer::S),
+            ("filter", "p") => filter = Some(SurfacePolarizer::P),
+            ("filter", other) => return Err(wrong(format!("filter {other:?} is neither s nor p"))),
             (name, value) => parameters.push((name.to_owned(), value.to_owned())),
         }
     }
     let mut material =
-        material.ok_or_else(|| wrong("neither model = NAME nor material = FILE.json".into()))?;
+        material.ok_or_else(|| wrong("expected model = NAME or material = FILE.json".into()))?;
     material.parameters.extend(parameters);
-    Ok(Described { name: safe_name(chunk)?, chunk: number, material, filter })
+    Ok(SceneMaterial { name: safe_name(chunk)?, chunk: number, material, filter })
 }

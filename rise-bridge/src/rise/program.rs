@@ -1,20 +1,18 @@
-//! The MIST program that a renderer writes for one of its materials: every ring of its table at
-//! every wavelength.
+//! The MIST program of one material of a scene: every ring of its table at every wavelength.
 //!
 //! Ring k of a table is an annulus around the normal, so that R/(π (sin² β − sin² α)) is the mean
-//! BRDF of the patch, with the flux R that the program integrates. It runs in NIST's MIST as it
-//! stands.
+//! BRDF of the patch, with the flux R that the program integrates. NIST's MIST runs it unchanged.
 
 use std::fmt::Write;
 
-use super::{material::Described, table::ring};
+use super::{material::SceneMaterial, table::ring};
 
-/// In the place of an incidence at the horizon, degrees.
+/// Replaces an incidence at the horizon, degrees.
 const HORIZON: f64 = 89.0;
 
 /// A program with the lists that its loops read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Written {
+pub struct RingProgram {
     /// The text of the program.
     pub program: String,
     /// Name and text of the list of rings, in the order of the table.
@@ -27,7 +25,12 @@ pub struct Written {
 
 /// The program for `material` of the scene `scene`, with `nodes` nodes per polar angle and these
 /// wavelengths (nm).
-pub fn program(material: &Described, scene: &str, nodes: usize, wavelengths: &[f64]) -> Written {
+pub fn program(
+    material: &SceneMaterial,
+    scene: &str,
+    nodes: usize,
+    wavelengths: &[f64],
+) -> RingProgram {
     let name = &material.name;
     let parameters: String = material
         .material
@@ -82,7 +85,7 @@ pub fn program(material: &Described, scene: &str, nodes: usize, wavelengths: &[f
         }
     }
     let waves: String = wavelengths.iter().map(|nm| format!("{nm}\n")).collect();
-    Written {
+    RingProgram {
         program,
         rings: (format!("{name}.rings"), rings),
         waves: (format!("{name}.waves"), format!("wl\n{waves}")),
@@ -95,7 +98,7 @@ fn is_wavelength(path: &str) -> bool {
 }
 
 /// The wavelength of the model and of every source in it.
-fn wavelength_lines(material: &Described) -> String {
+fn wavelength_lines(material: &SceneMaterial) -> String {
     let sources = material.material.parameters.iter().map(|(path, _)| path.as_str());
     let mut paths: Vec<String> = sources
         .filter(|path| path.rsplit('.').next().is_some_and(|last| last.starts_with("source")))

@@ -1,35 +1,35 @@
-//! The text of a RISE scene: its chunks, and the same text with other chunks in their place.
+//! The text of a RISE scene: its chunks, and replacement of chunks.
 
 use std::ops::Range;
 
 use crate::export::ExportError;
 
 const FIRST_LINE: &str = "RISE ASCII SCENE";
-/// What begins a comment line for us.
+/// The beginning of a comment for mist.
 const MARK: &str = "mist:";
 
 /// One chunk: a keyword and lines between braces.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Chunk {
-    /// Such as `ggx_material`.
+pub struct SceneChunk {
+    /// The keyword, such as `ggx_material`.
     pub keyword: String,
     /// Names and values in their order; names may repeat.
     pub lines: Vec<(String, String)>,
-    /// What comments `# mist: NAME = VALUE` say, in their order.
+    /// Names and values of comments `# mist: NAME = VALUE`, in their order.
     pub notes: Vec<(String, String)>,
-    /// Where it stands in the text, keyword and braces included.
+    /// Its range in the text, keyword and braces included.
     pub span: Range<usize>,
     /// The line of its keyword, from 1.
     pub line: usize,
 }
 
-impl Chunk {
+impl SceneChunk {
     /// The last value of `name`.
     pub fn get(&self, name: &str) -> Option<&str> {
         self.lines.iter().rev().find(|(this, _)| this == name).map(|(_, value)| value.as_str())
     }
 
-    /// Its own name.
+    /// The name of the chunk; empty if it has none.
     pub fn name(&self) -> &str {
         self.get("name").unwrap_or_default()
     }
@@ -39,13 +39,13 @@ impl Chunk {
 ///
 /// # Errors
 ///
-/// For texts that are not a RISE scene; names the line.
-pub fn chunks(text: &str) -> Result<Vec<Chunk>, ExportError> {
+/// If the text is not a RISE scene; the error names the line.
+pub fn chunks(text: &str) -> Result<Vec<SceneChunk>, ExportError> {
     if !text.starts_with(FIRST_LINE) {
         let problem = format!("the first line is not \"{FIRST_LINE} 7\"");
         return Err(ExportError::refused("scene", problem));
     }
-    let (mut found, mut open): (Vec<Chunk>, Option<Chunk>) = Default::default();
+    let (mut found, mut open): (Vec<SceneChunk>, Option<SceneChunk>) = Default::default();
     let mut waiting: Option<(String, usize, usize)> = None;
     let (mut at, mut in_comment) = (0, false);
     for (number, line) in text.split_inclusive('\n').enumerate().map(|(k, l)| (k + 1, l)) {
@@ -67,12 +67,13 @@ pub fn chunks(text: &str) -> Result<Vec<Chunk>, ExportError> {
             ("", _) | (_, 1) => {}
             ("{", _) => {
                 let (keyword, start, line) =
-                    waiting.take().ok_or_else(|| wrong("a brace without a keyword before it"))?;
+                    waiting.take().ok_or_else(|| wrong("an opening brace without a keyword"))?;
                 let (lines, notes) = Default::default();
-                open = Some(Chunk { keyword, lines, notes, span: start..end, line });
+                open = Some(SceneChunk { keyword, lines, notes, span: start..end, line });
             }
             ("}", _) => {
-                let mut chunk = open.take().ok_or_else(|| wrong("nothing is open"))?;
+                let mut chunk =
+                    open.take().ok_or_else(|| wrong("a closing brace without an opening brace"))?;
                 chunk.span.end = end;
                 found.push(chunk);
             }
@@ -94,7 +95,7 @@ pub fn chunks(text: &str) -> Result<Vec<Chunk>, ExportError> {
     }
 }
 
-/// `line` without comments between /* and */, which may go over lines.
+/// `line` without comments between /* and */; `inside` is true inside a comment that spans lines.
 fn uncommented(line: &str, inside: &mut bool) -> String {
     let (mut kept, mut rest) = (String::new(), line);
     loop {
@@ -113,7 +114,7 @@ fn uncommented(line: &str, inside: &mut bool) -> String {
     }
 }
 
-/// `text` with the pieces at `spans` replaced; spans do not overlap.
+/// `text` with the ranges of `pieces` replaced; ranges do not overlap.
 pub fn replaced(text: &str, mut pieces: Vec<(Range<usize>, String)>) -> String {
     pieces.sort_by_key(|(span, _)| span.start);
     let (mut out, mut at) = (String::new(), 0);
@@ -133,7 +134,7 @@ mod tests {
         \t# mist: model = Facet_BRDF_Model\n/* off\n\tior 9\n*/\n\tior\t1.5\n}\n\nfilm\n{\nwidth 4\n}\n";
 
     #[test]
-    fn chunks_have_their_lines_and_our_comments() {
+    fn chunks_have_their_lines_and_comments_for_mist() {
         let found = chunks(SCENE).unwrap();
         assert_eq!(found.len(), 2);
         assert_eq!((found[0].name(), found[0].get("ior")), ("m", Some("1.5")));
@@ -144,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn scenes_that_are_none_are_refused_with_the_line() {
+    fn invalid_scenes_are_refused_with_the_line() {
         assert!(chunks("film\n{\n}\n").is_err());
         let open = "RISE ASCII SCENE 7\nfilm\n{\nwidth 4\n";
         assert!(chunks(open).unwrap_err().to_string().contains("line 2"));

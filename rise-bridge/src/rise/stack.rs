@@ -1,4 +1,4 @@
-//! Product B in colours: renders with three wavelengths each, added up to one picture.
+//! Product B in colours: combines renders with three wavelengths each to one picture.
 //!
 //! Under white light a pixel of the render of λ1, λ2, λ3 is proportional to the radiance at these
 //! wavelengths for a flat spectrum. All renders together are the spectrum of the pixel; with the
@@ -15,8 +15,8 @@ use crate::export::ExportError;
 ///
 /// # Errors
 ///
-/// For renders of different sizes or another number than the wavelengths (nm) need, and for
-/// wavelengths or illuminants of which no colours come.
+/// If the renders differ in size or their number is not that of the triples of wavelengths (nm), and for
+/// wavelengths or illuminants that give no colours.
 pub fn stack(
     renders: &[Image],
     wavelengths: &[f64],
@@ -24,10 +24,10 @@ pub fn stack(
 ) -> Result<Image, ExportError> {
     let refused =
         |part: &str, error: &dyn std::fmt::Display| ExportError::refused(part, error.to_string());
-    let wanted = triples(wavelengths.len()).count();
+    let expected = triples(wavelengths.len()).count();
     let size = renders.first().map_or([0; 2], Image::size);
-    if renders.len() != wanted || renders.iter().any(|render| render.size() != size) {
-        let problem = format!("expected {wanted} renders of one size, found {}", renders.len());
+    if renders.len() != expected || renders.iter().any(|render| render.size() != size) {
+        let problem = format!("expected {expected} renders of one size, found {}", renders.len());
         return Err(ExportError::refused("renders", problem));
     }
     let names = ColourNames::of_factors(illuminant);

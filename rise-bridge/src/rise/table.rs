@@ -7,10 +7,10 @@
 //! trans   := float64 t1, t2, R, G, B      read and never used by RISE: zeros here
 //! ```
 //!
-//! Little endian, radians, values in 1/sr without a cosine, linear Rec.709. The reader takes only
-//! the middle of e1 and e2; we write e1 = e2 = π/2 − node with nodes from 0 to π/2, so that nothing
-//! lies outside of the first and the last middle. It checks almost nothing: a table that is cut off
-//! is dark without a message. [`read`] checks everything.
+//! Little endian, radians, values in 1/sr without a cosine, linear Rec.709. RISE uses the mean of e1
+//! and e2 only; we write e1 = e2 = π/2 − node with nodes from 0 to π/2, so that no direction lies
+//! outside of the nodes. RISE checks little: a truncated table is dark without a message. [`read`]
+//! checks the whole file.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -18,10 +18,10 @@ use crate::export::ExportError;
 
 const MAGIC: i32 = 0x0BDF;
 const VERSION: u32 = 1;
-/// Nodes of an axis, at most.
-const MOST: usize = 4096;
+/// Maximum number of nodes per axis.
+const MAX_NODES: usize = 4096;
 
-/// A table over even nodes from 0 to π/2.
+/// A table over uniform nodes from 0 to π/2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RingTable {
     /// Nodes of both polar angles.
@@ -35,9 +35,9 @@ impl RingTable {
     ///
     /// # Errors
     ///
-    /// If there are fewer than 3 nodes or too many, values are missing, negative or not finite.
+    /// If the number of nodes is not 3 to 4096, or values are missing, negative or not finite.
     pub fn new(nodes: usize, rgb: Vec<[f64; 3]>) -> Result<Self, ExportError> {
-        if !(3..=MOST).contains(&nodes) || rgb.len() != nodes * nodes {
+        if !(3..=MAX_NODES).contains(&nodes) || rgb.len() != nodes * nodes {
             let problem = format!("{} values for {nodes} nodes of each angle", rgb.len());
             return Err(ExportError::refused("table", problem));
         }
@@ -70,9 +70,9 @@ impl RingTable {
         out.extend((n as i32).to_le_bytes());
         let mut numbers = |values: &[f64]| values.iter().for_each(|x| out.extend(x.to_le_bytes()));
         for i in 0..n {
-            // A hair more than π/2 for the last one: beyond it RISE is black.
-            let hair = if i + 1 == n { 1e-9 } else { 0.0 };
-            numbers(&[self.angle(i) + hair]);
+            // Slightly more than π/2 for the last node: beyond it RISE is black.
+            let margin = if i + 1 == n { 1e-9 } else { 0.0 };
+            numbers(&[self.angle(i) + margin]);
             for r in (0..n).rev() {
                 let [red, green, blue] = self.rgb[i * n + r];
                 let elevation = FRAC_PI_2 - self.angle(r);
@@ -84,7 +84,7 @@ impl RingTable {
         out
     }
 
-    /// The value that RISE interpolates between the nodes, away from the ends: linear in θ_i.
+    /// The value that RISE interpolates between the nodes: linear in θ_i.
     pub fn at(&self, theta_i: f64, r: usize) -> [f64; 3] {
         let x = (theta_i / FRAC_PI_2 * (self.nodes - 1) as f64).clamp(0.0, (self.nodes - 1) as f64);
         let low = (x as usize).min(self.nodes - 2);
@@ -95,7 +95,7 @@ impl RingTable {
         })
     }
 
-    /// The share of diffuse light that comes back: Σ over both hemispheres.
+    /// The reflectance for diffuse light: Σ over both hemispheres.
     pub fn reflectance(&self) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for i in 0..self.nodes {
@@ -117,7 +117,7 @@ impl RingTable {
     }
 }
 
-/// The ring around node `k` of `nodes`, degrees: the solid angle that stands behind it.
+/// The inner and outer polar angle of the ring around node `k` of `nodes`, degrees.
 pub fn ring(k: usize, nodes: usize) -> (f64, f64) {
     let step = 90.0 / (nodes - 1) as f64;
     let half = |x: f64| (x * step).clamp(0.0, 90.0);
@@ -133,7 +133,7 @@ fn size(n_i: usize, n_r: usize) -> usize {
 ///
 /// # Errors
 ///
-/// For every file that RISE would show wrongly or black, with the reason.
+/// If RISE would show the file wrongly or black; the error names the reason.
 pub fn read(bytes: &[u8]) -> Result<RingTable, ExportError> {
     let refused = |problem: String| ExportError::refused("table", problem);
     let word =
@@ -145,11 +145,11 @@ pub fn read(bytes: &[u8]) -> Result<RingTable, ExportError> {
     if magic != MAGIC || version != VERSION as i32 {
         return Err(refused("the file does not begin with 0x0BDF and version 1".into()));
     }
-    let nodes = usize::try_from(n_i).ok().filter(|n| n_r == n_i && (3..=MOST).contains(n));
+    let nodes = usize::try_from(n_i).ok().filter(|n| n_r == n_i && (3..=MAX_NODES).contains(n));
     let nodes = nodes.ok_or_else(|| refused(format!("{n_i} times {n_r} nodes")))?;
-    let wanted = size(nodes, nodes);
-    if bytes.len() != wanted {
-        return Err(refused(format!("{} bytes instead of {wanted}", bytes.len())));
+    let expected = size(nodes, nodes);
+    if bytes.len() != expected {
+        return Err(refused(format!("{} bytes instead of {expected}", bytes.len())));
     }
     let number = |k: usize| {
         let at = 16 + 8 * k;
@@ -160,13 +160,13 @@ pub fn read(bytes: &[u8]) -> Result<RingTable, ExportError> {
         let start = i * (1 + 10 * nodes);
         let near = |found: f64, node: f64| (found - node).abs() < 1e-6;
         if !near(number(start), table.angle(i)) {
-            return Err(refused(format!("theta_i {i} is no even node")));
+            return Err(refused(format!("theta_i {i} is not a uniform node")));
         }
         for k in 0..nodes {
             let (at, r) = (start + 1 + 10 * k, nodes - 1 - k);
-            let middle = FRAC_PI_2 - 0.5 * (number(at) + number(at + 1));
-            if !near(middle, table.angle(r)) {
-                return Err(refused(format!("theta_r {r} is no even node")));
+            let mean = FRAC_PI_2 - 0.5 * (number(at) + number(at + 1));
+            if !near(mean, table.angle(r)) {
+                return Err(refused(format!("theta_r {r} is not a uniform node")));
             }
             table.rgb[i * nodes + r] = [number(at + 2), number(at + 3), number(at + 4)];
         }
@@ -174,7 +174,7 @@ pub fn read(bytes: &[u8]) -> Result<RingTable, ExportError> {
     RingTable::new(nodes, table.rgb)
 }
 
-/// `rgb` with no channel below 0 and the same luminance: moved towards the grey of it.
+/// Moves `rgb` towards the grey of its luminance until no channel is negative.
 pub fn into_gamut(rgb: [f64; 3]) -> [f64; 3] {
     // Luminance of linear Rec.709: ITU-R BT.709-6.
     let grey = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
@@ -227,8 +227,8 @@ mod tests {
     #[test]
     fn colours_out_of_gamut_keep_their_luminance() {
         let moved = into_gamut([0.5, 0.2, -0.1]);
-        let light = |c: [f64; 3]| 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+        let luminance = |c: [f64; 3]| 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
         assert!(moved.iter().all(|x| *x >= 0.0) && moved[2] < 1e-15);
-        assert!((light(moved) - light([0.5, 0.2, -0.1])).abs() < 1e-12);
+        assert!((luminance(moved) - luminance([0.5, 0.2, -0.1])).abs() < 1e-12);
     }
 }

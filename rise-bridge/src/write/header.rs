@@ -1,4 +1,4 @@
-//! The header lines that `.mtab` and `.mspd` share.
+//! The common header lines of `.mtab` and `.mspd`.
 
 use std::fmt::Write as _;
 
@@ -10,14 +10,14 @@ use super::rows::number;
 /// First line of every text table, without `# `.
 pub(crate) const MAGIC: &str = "MIST-TABLE 1";
 
-/// What wrote the table.
+/// The program that writes the table.
 pub(super) const GENERATOR: &str = concat!("mist ", env!("CARGO_PKG_VERSION"));
 
-/// Digits of wavelengths and grid nodes: what people write, without the noise of arithmetic.
+/// Digits of wavelengths and grid nodes; rounding errors do not appear.
 const NODE_DIGITS: usize = 12;
 
-/// Largest distance in nm from an even spacing that is still called even.
-const EVEN: f64 = 1e-6;
+/// Tolerance of a uniform spacing, nm.
+const UNIFORM: f64 = 1e-6;
 
 /// All lines before `# columns`; `extra` are keys of one format alone.
 pub(super) fn header(table: &ColourTable, digits: usize, extra: &[(&str, String)]) -> String {
@@ -99,7 +99,7 @@ fn layout_lines(table: &ColourTable, line: &mut impl FnMut(&str, &str)) {
 fn wavelengths(list: &[f64]) -> String {
     if let [first, second, .., last] = list {
         let step = second - first;
-        let even = |(i, w): (usize, &f64)| (first + i as f64 * step - w).abs() < EVEN;
+        let even = |(i, w): (usize, &f64)| (first + i as f64 * step - w).abs() < UNIFORM;
         if list.iter().enumerate().all(even) {
             return format!("{} {} {} nm", node(*first), node(step), node(*last));
         }

@@ -1,10 +1,10 @@
-//! The colour table as JSON: the keys of the text header, and numbers that read back to the bit.
+//! The colour table as JSON, with the keys of the text header and numbers that read back exactly.
 
 use mist_engine::colour::{Axis, ColourRow, ColourTable, Layout};
 use serde::{Serialize, Serializer, ser::SerializeSeq};
 
 use super::{
-    WriteError,
+    error::WriteError,
     header::{GENERATOR, MAGIC, patch, symmetry},
     rows::finite,
 };
@@ -12,7 +12,7 @@ use crate::column;
 
 /// The document, in the order of the text header.
 #[derive(Serialize)]
-struct Document<'a> {
+struct JsonTable<'a> {
     format: &'static str,
     generator: &'static str,
     material: &'a str,
@@ -30,42 +30,42 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     symmetry: Option<&'static str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    axis: Vec<Nodes<'a>>,
+    axis: Vec<JsonAxis<'a>>,
     patch: String,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     albedo: Vec<[f64; 5]>,
     columns: Vec<String>,
-    rows: Rows<'a>,
+    rows: JsonRows<'a>,
     end: usize,
 }
 
 #[derive(Serialize)]
-struct Nodes<'a> {
+struct JsonAxis<'a> {
     name: &'a str,
     nodes: &'a [f64],
 }
 
-/// Rows as arrays of numbers; the flags stay an integer.
-struct Rows<'a> {
+/// JsonRows as arrays of numbers; the flags stay an integer.
+struct JsonRows<'a> {
     table: &'a ColourTable,
     xyz: bool,
 }
 
-struct Row<'a> {
+struct JsonRow<'a> {
     values: Vec<f64>,
     row: &'a ColourRow,
 }
 
-impl Serialize for Rows<'_> {
+impl Serialize for JsonRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.table.rows.iter().map(|row| {
             let values = column::values(self.table, row, self.xyz);
-            Row { values, row }
+            JsonRow { values, row }
         }))
     }
 }
 
-impl Serialize for Row<'_> {
+impl Serialize for JsonRow<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut seq = serializer.serialize_seq(Some(self.values.len() + 1))?;
         for value in &self.values {
@@ -90,12 +90,12 @@ pub fn json(table: &ColourTable, xyz: bool) -> Result<String, WriteError> {
     Ok(text.expect("a document of numbers and text has a JSON form") + "\n")
 }
 
-fn document(table: &ColourTable, columns: Vec<String>, xyz: bool) -> Document<'_> {
+fn document(table: &ColourTable, columns: Vec<String>, xyz: bool) -> JsonTable<'_> {
     let (layout, axes, half): (_, &[Axis], _) = match &table.layout {
         Layout::List => ("list", &[], None),
         Layout::Grid { axes, symmetry: half } => ("grid", axes, Some(symmetry(*half))),
     };
-    Document {
+    JsonTable {
         format: MAGIC,
         generator: GENERATOR,
         material: &table.material,
@@ -111,7 +111,7 @@ fn document(table: &ColourTable, columns: Vec<String>, xyz: bool) -> Document<'_
         white: table.white,
         layout,
         symmetry: half,
-        axis: axes.iter().map(|axis| Nodes { name: &axis.name, nodes: &axis.nodes }).collect(),
+        axis: axes.iter().map(|axis| JsonAxis { name: &axis.name, nodes: &axis.nodes }).collect(),
         patch: patch(&table.patch),
         albedo: table
             .albedo
@@ -122,7 +122,7 @@ fn document(table: &ColourTable, columns: Vec<String>, xyz: bool) -> Document<'_
             })
             .collect(),
         columns,
-        rows: Rows { table, xyz },
+        rows: JsonRows { table, xyz },
         end: table.rows.len(),
     }
 }

@@ -3,9 +3,10 @@
 use mist_engine::colour::ColourTable;
 
 use super::{
-    Style, WriteError,
+    error::WriteError,
     header::{columns, header, node},
-    rows::Rows,
+    rows::TextRows,
+    style::Style,
 };
 use crate::column;
 
@@ -16,15 +17,15 @@ use crate::column;
 /// If a row has no such spectrum or a number is not finite.
 pub fn mspd(table: &ColourTable, component: usize, style: Style) -> Result<String, WriteError> {
     let letter = ['I', 'Q', 'U', 'V'][component];
-    let mut names = column::place_names(table);
+    let mut names = column::patch_names(table);
     names.extend(table.wavelengths.iter().copied().map(node));
-    let mut rows = Rows::new(&names, style.digits);
+    let mut rows = TextRows::new(&names, style.digits);
     for (i, row) in table.rows.iter().enumerate() {
         let spectrum = &row.spectra[component];
         if spectrum.len() != table.wavelengths.len() {
             return Err(WriteError::NoSpectrum { row: i + 1, component: letter });
         }
-        let mut values = column::place_values(row);
+        let mut values = column::patch_values(row);
         values.extend(spectrum);
         rows.push(&values, None)?;
     }

@@ -3,9 +3,10 @@
 use mist_engine::colour::ColourTable;
 
 use super::{
-    Style, WriteError,
+    error::WriteError,
     header::{columns, header},
-    rows::Rows,
+    rows::TextRows,
+    style::Style,
 };
 use crate::column;
 
@@ -16,7 +17,7 @@ use crate::column;
 /// If a number is not finite.
 pub fn mtab(table: &ColourTable, style: Style) -> Result<String, WriteError> {
     let names = column::names(table, style.xyz);
-    let mut rows = Rows::new(&names, style.digits);
+    let mut rows = TextRows::new(&names, style.digits);
     for row in &table.rows {
         rows.push(&column::values(table, row, style.xyz), Some(row.flags))?;
     }

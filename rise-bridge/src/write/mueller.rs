@@ -7,16 +7,17 @@ use mist_engine::{
 use serde_json::json;
 
 use super::{
-    Style, WriteError,
+    error::WriteError,
     header::{columns, node},
-    rows::{Rows, finite},
+    rows::{TextRows, finite},
+    style::Style,
 };
 use crate::column;
 
 /// First line of the text, without `# `.
 const MAGIC: &str = "MIST-MUELLER 1";
 
-/// The mean Mueller matrices (1/sr) of the rows of `request`: per row the place, then sixteen
+/// The mean Mueller matrices (1/sr) of the rows of `request`: per row the patch, then sixteen
 /// numbers per wavelength, row by row, then the flags.
 ///
 /// # Errors
@@ -28,7 +29,7 @@ pub fn mueller(
     style: Style,
 ) -> Result<String, WriteError> {
     let names = names(request);
-    let mut text = Rows::new(&names, style.digits);
+    let mut text = TextRows::new(&names, style.digits);
     for row in rows {
         text.push(&values(row), Some(row.flags))?;
     }
@@ -44,7 +45,7 @@ pub fn mueller(
     Ok(head + &columns(&shown) + &text.finish())
 }
 
-/// The same as JSON: `{"wavelengths": […], "rows": [{"thetai": …, "mueller": [[16 numbers], …]}]}`.
+/// The matrices as JSON: `{"wavelengths": […], "rows": [{"thetai": …, "mueller": [[16 numbers], …]}]}`.
 ///
 /// # Errors
 ///
@@ -111,7 +112,7 @@ fn names(request: &TableRequest) -> Vec<String> {
         let nm = node(*nm);
         (0..16).map(move |k| format!("m{}{}@{nm}", k / 4, k % 4)).collect::<Vec<_>>()
     };
-    let place = column::PLACE.map(str::to_owned).into_iter();
+    let place = column::PATCH.map(str::to_owned).into_iter();
     place.chain(request.wavelengths.iter().flat_map(element)).collect()
 }
 

@@ -5,18 +5,18 @@ use std::fmt::Write as _;
 use mist_format::number::general;
 use sha2::{Digest, Sha256};
 
-use super::WriteError;
+use super::error::WriteError;
 
-/// Rows of numbers, and the line that proves them complete.
-pub(super) struct Rows<'a> {
+/// TextRows of numbers, and the line that proves them complete.
+pub(super) struct TextRows<'a> {
     names: &'a [String],
     digits: usize,
     text: String,
     count: usize,
 }
 
-impl<'a> Rows<'a> {
-    /// No rows yet; `names` are the columns, for errors.
+impl<'a> TextRows<'a> {
+    /// An empty table; `names` are the columns, for errors.
     pub(super) fn new(names: &'a [String], digits: usize) -> Self {
         Self { names, digits, text: String::new(), count: 0 }
     }
@@ -50,12 +50,16 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// `x` with `digits` significant digits; zero has no sign.
+/// The text of `x` with `digits` significant digits; zero has no sign.
 pub(super) fn number(x: f64, digits: usize) -> String {
     general(x + 0.0, digits)
 }
 
-/// An error at the first of `values` that is not finite; `row` counts from 0.
+/// Checks that `values` are finite; `row` counts from 0.
+///
+/// # Errors
+///
+/// At the first value that is not finite.
 pub(super) fn finite(row: usize, names: &[String], values: &[f64]) -> Result<(), WriteError> {
     match values.iter().zip(names).find(|(value, _)| !value.is_finite()) {
         None => Ok(()),

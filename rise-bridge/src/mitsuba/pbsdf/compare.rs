@@ -1,4 +1,4 @@
-//! A table, measured or written by another program, against a material.
+//! Comparison of a table, measured or written by another program, with a material.
 
 use std::io::{Read, Seek};
 
@@ -8,32 +8,36 @@ use scattering::Mueller;
 
 use super::{
     super::{axes::LOWEST, frame::HalfAngles},
-    bands, matrices,
-    table::Head,
+    header::PbsdfHeader,
+    models::{bands, matrices},
 };
-use crate::{export::ExportError, tensor::Reader};
+use crate::{
+    export::{Bands, ExportError},
+    tensor::TensorReader,
+};
 
-/// Numbers that are held in memory at a time: 8 MB.
-const CHUNK: usize = 1 << 21;
+/// Numbers per part that is read at once: 8 MB.
+const PART: usize = 1 << 21;
 
-/// How a table differs from a material, over the nodes above the horizon that have numbers.
+/// The differences between a table and a material, over the nodes above the horizon with finite
+/// values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct PbsdfComparison {
     /// Wavelengths of the table, nm.
     pub nm: Vec<f64>,
-    /// Nodes that were compared, all wavelengths together.
+    /// Number of compared nodes over all wavelengths.
     pub compared: u64,
-    /// Nodes without a number in the table.
+    /// Number of nodes whose value is not finite.
     pub empty: u64,
-    /// Nodes below the horizon: the table fills them as it likes.
+    /// Number of nodes below the horizon, where the format leaves the values free.
     pub below: u64,
-    /// Per wavelength what was found.
-    pub found: Vec<Differences>,
+    /// The differences per wavelength.
+    pub found: Vec<BandDifference>,
 }
 
-/// The differences at one wavelength, relative to M00 of the material; ideally all are 0.
+/// The differences at one wavelength, relative to M00 of the material.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Differences {
+pub struct BandDifference {
     /// Light of the table over light of the material, over all directions.
     pub brightness: f64,
     /// Σ |ΔM00| / Σ M00, over all directions, weighted by solid angles and cosines.
@@ -42,63 +46,67 @@ pub struct Differences {
     pub largest: f64,
 }
 
-/// Sums at one wavelength.
+/// DifferenceSums at one wavelength.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+struct DifferenceSums {
     theirs: f64,
     ours: f64,
     difference: f64,
     largest: f64,
 }
 
+/// Counts and sums of a part of the table.
 #[derive(Clone, Default)]
-struct Tally {
+struct DifferenceTally {
     compared: u64,
     empty: u64,
     below: u64,
-    sums: Vec<Sums>,
+    sums: Vec<DifferenceSums>,
 }
 
-/// Compares the table in `source` with `material`, reading it piece by piece.
+/// Compares the table in `source` with `material`; the table is read in parts.
 ///
 /// # Errors
 ///
-/// For files that are no `.pbsdf`, materials that have no such table, and a wish to stop.
+/// If the file is not a `.pbsdf` or the material has no such table, and on cancellation.
 pub fn compare<R: Read + Seek>(
     source: R,
     material: &Prepared,
     control: &Control,
-) -> Result<Comparison, ExportError> {
-    let mut file = Reader::open(source)?;
-    let head = Head::read(&mut file)?;
-    let bands = bands(material, &head.axes[3], false)?;
-    let (row, n_d) = (head.row(), head.axes[1].len());
-    let rows = head.axes[0].len() * n_d;
-    let step = (CHUNK / row).max(1);
-    let mut all = Tally { sums: vec![Sums::default(); bands.nm().len()], ..Tally::default() };
+) -> Result<PbsdfComparison, ExportError> {
+    let mut file = TensorReader::open(source)?;
+    let header = PbsdfHeader::read(&mut file)?;
+    let bands = bands(material, &header.axes[3], false)?;
+    let (row, n_d) = (header.row(), header.axes[1].len());
+    let rows = header.axes[0].len() * n_d;
+    let step = (PART / row).max(1);
+    let mut all = DifferenceTally {
+        sums: vec![DifferenceSums::default(); bands.nm().len()],
+        ..DifferenceTally::default()
+    };
     for first in (0..rows).step_by(step) {
         if control.is_cancelled() {
             return Err(ExportError::Cancelled);
         }
         let last = (first + step).min(rows);
         let numbers = file.f32s("M", (first * row) as u64, ((last - first) * row) as u64)?;
-        let tallies: Vec<Tally> = (first..last)
+        let tallies: Vec<DifferenceTally> = (first..last)
             .into_par_iter()
             .map(|at| {
                 let row = &numbers[(at - first) * row..][..row];
-                tally(&bands, &head, [at / n_d, at % n_d], row)
+                tally(&bands, &header, [at / n_d, at % n_d], row)
             })
             .collect();
         tallies.iter().for_each(|tally| all.add(tally));
         control.report(last as f64 / rows as f64);
     }
-    let found = |sums: &Sums| Differences {
+    let found = |sums: &DifferenceSums| BandDifference {
         brightness: sums.theirs / sums.ours,
         mean: sums.difference / sums.ours,
         largest: sums.largest,
     };
-    Ok(Comparison {
-        nm: head.axes[3].clone(),
+    Ok(PbsdfComparison {
+        nm: header.axes[3].clone(),
         compared: all.compared,
         empty: all.empty,
         below: all.below,
@@ -106,15 +114,18 @@ pub fn compare<R: Read + Seek>(
     })
 }
 
-/// All θ_h and wavelengths at one φ_d and θ_d.
-fn tally(bands: &crate::export::Bands, head: &Head, [i, j]: [usize; 2], row: &[f32]) -> Tally {
+/// The differences of all θ_h and wavelengths at one φ_d and θ_d.
+fn tally(bands: &Bands, header: &PbsdfHeader, [i, j]: [usize; 2], row: &[f32]) -> DifferenceTally {
     let waves = bands.nm().len();
-    let mut all = Tally { sums: vec![Sums::default(); waves], ..Tally::default() };
+    let mut all = DifferenceTally {
+        sums: vec![DifferenceSums::default(); waves],
+        ..DifferenceTally::default()
+    };
     for (k, numbers) in row.chunks_exact(16 * waves).enumerate() {
         let at = HalfAngles {
-            phi_d: head.axes[0][i],
-            theta_d: head.axes[1][j],
-            theta_h: head.axes[2][k],
+            phi_d: header.axes[0][i],
+            theta_d: header.axes[1][j],
+            theta_h: header.axes[2][k],
         };
         let (l, v) = at.directions();
         if l.z < LOWEST || v.z < LOWEST {
@@ -126,8 +137,8 @@ fn tally(bands: &crate::export::Bands, head: &Head, [i, j]: [usize; 2], row: &[f
             * at.theta_d.cos()
             * at.theta_d.sin()
             * at.theta_h.sin()
-            * width(&head.axes[1], j)
-            * width(&head.axes[2], k);
+            * width(&header.axes[1], j)
+            * width(&header.axes[2], k);
         let ours = matrices(bands, &at);
         for ((numbers, ours), sums) in numbers.chunks_exact(16).zip(ours).zip(&mut all.sums) {
             if numbers.iter().any(|x| !x.is_finite()) {
@@ -142,26 +153,26 @@ fn tally(bands: &crate::export::Bands, head: &Head, [i, j]: [usize; 2], row: &[f
     all
 }
 
-/// The width of the cell of a node.
+/// The width of the interval around node `k`.
 fn width(nodes: &[f64], k: usize) -> f64 {
     let (low, high) = (k.saturating_sub(1), (k + 1).min(nodes.len() - 1));
     0.5 * (nodes[high] - nodes[low])
 }
 
-impl Sums {
+impl DifferenceSums {
     fn node(&mut self, theirs: Mueller, ours: Mueller, weight: f64) {
         let difference = theirs - ours;
         self.theirs += weight * theirs[(0, 0)];
         self.ours += weight * ours[(0, 0)];
         self.difference += weight * difference[(0, 0)].abs();
-        // Smaller 32-bit numbers lose digits.
+        // Subnormal 32-bit numbers lose digits.
         if ours[(0, 0)] > f64::from(f32::MIN_POSITIVE) {
             self.largest = self.largest.max(difference.largest() / ours[(0, 0)]);
         }
     }
 }
 
-impl Tally {
+impl DifferenceTally {
     fn add(&mut self, other: &Self) {
         self.compared += other.compared;
         self.empty += other.empty;

@@ -1,8 +1,8 @@
-//! RISE's `pinhole_camera`: from where a pixel is seen.
+//! RISE's `pinhole_camera`: the beam of every pixel.
 
 use glam::DVec3;
 
-use crate::{export::ExportError, rise::scene::Chunk};
+use crate::{export::ExportError, rise::scene::SceneChunk};
 
 /// Axes of the camera, and half the height of its picture at the distance 1.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,11 @@ pub(super) struct Camera {
 
 impl Camera {
     /// The camera of a scene.
-    pub(super) fn of(chunks: &[Chunk]) -> Result<Self, ExportError> {
+    ///
+    /// # Errors
+    ///
+    /// If there is not exactly one `pinhole_camera` with valid parameters.
+    pub(super) fn of(chunks: &[SceneChunk]) -> Result<Self, ExportError> {
         let refused = |problem: String| ExportError::refused("camera", problem);
         let mut cameras = chunks.iter().filter(|chunk| chunk.keyword.ends_with("_camera"));
         let Some(chunk) = cameras.next() else {
@@ -25,10 +29,10 @@ impl Camera {
             let problem = format!("line {}: expected one pinhole_camera and no other", chunk.line);
             return Err(refused(problem));
         }
-        // Turns of the camera beyond its axes.
+        // Parameters that rotate the camera further are refused.
         let known = ["name", "location", "lookat", "up", "fov"];
         if let Some((name, _)) = chunk.lines.iter().find(|(name, _)| !known.contains(&&**name)) {
-            let problem = format!("line {}: {name} is not taken into account", chunk.line);
+            let problem = format!("line {}: {name} is not supported", chunk.line);
             return Err(refused(problem));
         }
         let vector = |name: &str, usual| triple(chunk, name).unwrap_or(Ok(usual));
@@ -37,18 +41,18 @@ impl Camera {
         let (forward, up) = (forward.try_normalize(), vector("up", DVec3::Y)?);
         let right = forward.and_then(|forward| forward.cross(up).try_normalize());
         let (Some(forward), Some(right)) = (forward, right) else {
-            return Err(refused("it looks nowhere, or along its own up".into()));
+            return Err(refused("lookat equals location, or up is parallel to the view".into()));
         };
         let fov: f64 = chunk.get("fov").and_then(|text| text.parse().ok()).unwrap_or(f64::NAN);
         if !(fov > 0.0 && fov < 180.0) {
-            return Err(refused("fov is the height of the picture in degrees".into()));
+            return Err(refused("fov is missing or not an angle from 0 to 180 degrees".into()));
         }
         let half_height = (0.5 * fov.to_radians()).tan();
         Ok(Self { forward, right, up: right.cross(forward), half_height })
     }
 
-    /// The unit vectors from the point in a pixel to the camera, and across it to the right.
-    pub(super) fn sees(&self, [x, y]: [usize; 2], [width, height]: [usize; 2]) -> (DVec3, DVec3) {
+    /// Unit vectors from the point in a pixel to the camera, and perpendicular to it to the right.
+    pub(super) fn beam(&self, [x, y]: [usize; 2], [width, height]: [usize; 2]) -> (DVec3, DVec3) {
         let unit = 2.0 * self.half_height / height as f64;
         let across = (x as f64 + 0.5 - 0.5 * width as f64) * unit;
         let up = (0.5 * height as f64 - y as f64 - 0.5) * unit;
@@ -59,7 +63,7 @@ impl Camera {
 }
 
 /// Three numbers of a chunk, if it has them.
-pub(super) fn triple(chunk: &Chunk, name: &str) -> Option<Result<DVec3, ExportError>> {
+pub(super) fn triple(chunk: &SceneChunk, name: &str) -> Option<Result<DVec3, ExportError>> {
     let text = chunk.get(name)?;
     let numbers: Option<Vec<f64>> = text
         .split_whitespace()

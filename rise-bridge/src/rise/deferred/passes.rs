@@ -1,18 +1,17 @@
-//! The scenes that RISE renders for product D: white where one material is, black elsewhere, one
-//! light.
+//! The scenes that RISE renders for product D: one material white, all others black, one light.
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 use pictures::image::MOST_PIXELS;
 
-use super::{Lamp, camera::triple};
+use super::lamp::DirectionalLamp;
 use crate::{
     export::ExportError,
-    rise::scene::{Chunk, replaced},
+    rise::scene::{SceneChunk, replaced},
 };
 
-/// Painters for the bodies, and direct light only; they stand before everything else.
+/// Painters for the bodies, and settings for direct light; inserted before the scene.
 const HEAD: &str = "\n# written by mist bridge\n\
     standard_shader\n{\n\tname\tglobal\n\tshaderop\tDefaultDirectLighting\n}\n\n\
     pixelpel_rasterizer\n{\n\tsamples\t1\n\tmax_recursion\t1\n\tpixel_filter\tbox\n\
@@ -23,9 +22,9 @@ const HEAD: &str = "\n# written by mist bridge\n\
 /// A scene from which the passes are made.
 pub(super) struct Passes<'a> {
     text: &'a str,
-    chunks: &'a [Chunk],
-    film: &'a Chunk,
-    finer: usize,
+    chunks: &'a [SceneChunk],
+    film: &'a SceneChunk,
+    supersampling: usize,
     /// Columns and rows of the picture.
     pub(super) size: [usize; 2],
 }
@@ -33,8 +32,8 @@ pub(super) struct Passes<'a> {
 impl<'a> Passes<'a> {
     pub(super) fn new(
         text: &'a str,
-        chunks: &'a [Chunk],
-        finer: usize,
+        chunks: &'a [SceneChunk],
+        supersampling: usize,
     ) -> Result<Self, ExportError> {
         let film = chunks.iter().find(|chunk| chunk.keyword == "film");
         let film = film.ok_or_else(|| {
@@ -48,24 +47,26 @@ impl<'a> Passes<'a> {
             })
         };
         let size = [side("width")?, side("height")?];
-        if size[0] * size[1] * finer * finer > MOST_PIXELS {
-            let problem = format!("{finer} times its pixels each way are more than {MOST_PIXELS}");
+        if size[0] * size[1] * supersampling * supersampling > MOST_PIXELS {
+            let problem =
+                format!("{supersampling} times its pixels in each direction exceed {MOST_PIXELS}");
             return Err(ExportError::refused("film", problem));
         }
-        Ok(Self { text, chunks, film, finer, size })
+        Ok(Self { text, chunks, film, supersampling, size })
     }
 
     /// The lamps of the scene.
-    pub(super) fn lamps(&self) -> Result<Vec<Lamp>, ExportError> {
+    pub(super) fn lamps(&self) -> Result<Vec<DirectionalLamp>, ExportError> {
         let lights = self.chunks.iter().filter(|chunk| chunk.keyword.ends_with("_light"));
-        let lamps: Vec<Lamp> = lights.map(lamp).collect::<Result<_, _>>()?;
+        let lamps: Vec<DirectionalLamp> =
+            lights.map(DirectionalLamp::of).collect::<Result<_, _>>()?;
         if lamps.is_empty() {
             return Err(ExportError::refused("scene", "it has no directional_light"));
         }
         Ok(lamps)
     }
 
-    /// The scene in which the material of chunk number `shown` is white, lit from `toward`.
+    /// The scene with the material of chunk `shown` in white, lit from `toward`.
     pub(super) fn scene(
         &self,
         name: &str,
@@ -84,13 +85,13 @@ impl<'a> Passes<'a> {
         let mut pieces = vec![(first_line..first_line, head)];
         for (number, chunk) in self.chunks.iter().enumerate() {
             let keyword = chunk.keyword.as_str();
-            let gone = ["_rasterizer", "_shader", "_light", "file_rasterizeroutput"];
+            let removed = ["_rasterizer", "_shader", "_light", "file_rasterizeroutput"];
             let new = if keyword.ends_with("_material") {
                 body(chunk.name(), if number == shown { "mist_white" } else { "mist_black" })
-            } else if gone.iter().any(|end| keyword.ends_with(end)) {
+            } else if removed.iter().any(|end| keyword.ends_with(end)) {
                 String::new()
             } else if chunk == self.film {
-                let [width, height] = self.size.map(|n| n * self.finer);
+                let [width, height] = self.size.map(|n| n * self.supersampling);
                 rewritten(chunk, &[("width", width.to_string()), ("height", height.to_string())])
             } else if keyword.ends_with("_object") && !has_shadows {
                 rewritten(chunk, &[("receives_shadows", "FALSE".to_owned())])
@@ -103,34 +104,13 @@ impl<'a> Passes<'a> {
     }
 }
 
-fn lamp(chunk: &Chunk) -> Result<Lamp, ExportError> {
-    let refused = |problem: &str| {
-        let part = format!("scene, line {}", chunk.line);
-        ExportError::refused(&part, format!("{}: {problem}", chunk.keyword))
-    };
-    if chunk.keyword != "directional_light" {
-        return Err(refused("only lamps far away, directional_light, are shaded"));
-    }
-    let color = triple(chunk, "color").unwrap_or(Ok(DVec3::ONE))?;
-    if color.x != color.y || color.x != color.z {
-        return Err(refused("its color is not grey: the spectrum of lamps is --illuminant"));
-    }
-    let power = chunk.get("power").map_or(Some(1.0), |text| text.parse::<f64>().ok());
-    let power = power.filter(|power| *power >= 0.0 && power.is_finite());
-    let toward = triple(chunk, "direction").transpose()?.and_then(DVec3::try_normalize);
-    match (power, toward) {
-        (Some(power), Some(toward)) => Ok(Lamp { toward, irradiance: power * color.x }),
-        _ => Err(refused("expected a power and a direction")),
-    }
-}
-
-/// A Lambertian body under the name of another material.
+/// A Lambertian material with the name of another material.
 fn body(name: &str, painter: &str) -> String {
     format!("lambertian_material\n{{\n\tname\t{name}\n\treflectance\t{painter}\n}}\n")
 }
 
-/// The same chunk with other values, or with more.
-fn rewritten(chunk: &Chunk, values: &[(&str, String)]) -> String {
+/// The chunk with values replaced or added.
+fn rewritten(chunk: &SceneChunk, values: &[(&str, String)]) -> String {
     let kept = chunk.lines.iter().filter(|(name, _)| values.iter().all(|new| new.0 != name));
     let mut text = format!("{}\n{{\n", chunk.keyword);
     for (name, value) in kept {

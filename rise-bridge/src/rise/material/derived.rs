@@ -1,30 +1,30 @@
-//! Models for RISE's own materials.
+//! Models of RISE's own materials.
 
 use std::{collections::BTreeMap, f64::consts::FRAC_1_PI, fmt::Write};
 
 use mist_engine::{Files, material::Material};
 
 use super::{
-    super::scene::Chunk,
-    painter::{Values, colour, scalar},
+    super::scene::SceneChunk,
+    painter::{SpectralValue, colour, scalar},
 };
 use crate::export::ExportError;
 
-/// What a model is made of while it is derived.
+/// A model under construction.
 #[derive(Default)]
-struct Draft {
+struct MaterialDraft {
     parameters: Vec<(String, String)>,
     files: BTreeMap<String, String>,
 }
 
-impl Draft {
+impl MaterialDraft {
     fn set(&mut self, name: &str, value: impl ToString) {
         self.parameters.push((name.to_owned(), value.to_string()));
     }
 
-    /// The text of an index; over wavelength it is a file of its own.
-    fn index(&mut self, file: &str, n: &Values, k: &Values) -> String {
-        if let (Values::Flat(n), Values::Flat(k)) = (n, k) {
+    /// The text of an index; values over wavelength become a file.
+    fn index(&mut self, file: &str, n: &SpectralValue, k: &SpectralValue) -> String {
+        if let (SpectralValue::Flat(n), SpectralValue::Flat(k)) = (n, k) {
             return format!("({n},{k})");
         }
         let mut nm = [n.nm(), k.nm()].concat();
@@ -39,11 +39,11 @@ impl Draft {
         file.to_owned()
     }
 
-    /// The text of a table over wavelength.
-    fn table(&mut self, file: &str, values: &Values) -> String {
+    /// The text of a number; values over wavelength become a file.
+    fn table(&mut self, file: &str, values: &SpectralValue) -> String {
         let points = match values {
-            Values::Flat(value) => return value.to_string(),
-            Values::Over(points) => points,
+            SpectralValue::Flat(value) => return value.to_string(),
+            SpectralValue::Over(points) => points,
         };
         let mut text = String::from("; lambda_um value\n");
         for (nm, value) in points {
@@ -53,7 +53,7 @@ impl Draft {
         file.to_owned()
     }
 
-    fn reflectance(&mut self, prefix: &str, file: &str, values: &Values) {
+    fn reflectance(&mut self, prefix: &str, file: &str, values: &SpectralValue) {
         self.set(&format!("{prefix}reflectance"), "Table_Reflectance");
         let table = self.table(file, values);
         self.set(&format!("{prefix}reflectance.table"), table);
@@ -64,16 +64,21 @@ impl Draft {
     }
 }
 
-/// The model of `chunk`, or why there is none.
+/// The model of `chunk`.
+///
+/// # Errors
+///
+/// If no model describes the material.
 pub(super) fn material(
-    chunk: &Chunk,
-    chunks: &[Chunk],
+    chunk: &SceneChunk,
+    chunks: &[SceneChunk],
     files: &dyn Files,
 ) -> Result<Material, ExportError> {
     match chunk.keyword.as_str() {
         "lambertian_material" => {
-            let mut draft = Draft::default();
-            let values = colour(chunk, "reflectance", chunks, files)?.unwrap_or(Values::Flat(1.0));
+            let mut draft = MaterialDraft::default();
+            let values =
+                colour(chunk, "reflectance", chunks, files)?.unwrap_or(SpectralValue::Flat(1.0));
             draft.reflectance("", &format!("{}_rd.txt", chunk.name()), &values);
             Ok(draft.model("Lambertian_BRDF_Model"))
         }
@@ -89,7 +94,7 @@ pub(super) fn material(
         "ggx_material" => {
             let x = roughness(chunk, "alphax", chunks, files)?;
             if roughness(chunk, "alphay", chunks, files)? != x {
-                let problem = "alphax and alphay differ: the table has no azimuth";
+                let problem = "alphax and alphay differ, and the table has no azimuth";
                 return Err(ExportError::refused("alphay", problem));
             }
             let shape = [
@@ -104,57 +109,60 @@ pub(super) fn material(
             facets(chunk, chunks, files, &shape)
         }
         "dielectric_material" => {
-            let problem = "dielectric_material is left as it is: it reflects as a mirror does, in one \
-                           direction, and lets light through; a rough face of the same index and \
-                           films is a ggx_material, or a model in comments with a stack";
+            let problem = "dielectric_material is not converted: it is a mirror that transmits light. For a \
+                           rough surface of the same index and films use ggx_material, or a model \
+                           with a stack in comments";
             Err(ExportError::refused("material", problem))
         }
         other => {
-            let problem = format!("{other} is left as it is: no model of it has a table of rings");
+            let problem = format!("{other} is not converted: it has no equivalent model");
             Err(ExportError::refused("material", problem))
         }
     }
 }
 
 fn roughness(
-    chunk: &Chunk,
+    chunk: &SceneChunk,
     name: &str,
-    chunks: &[Chunk],
+    chunks: &[SceneChunk],
     files: &dyn Files,
 ) -> Result<f64, ExportError> {
     match scalar(chunk, name, chunks, files)? {
-        Some(Values::Flat(x)) if x > 0.0 => Ok(x),
+        Some(SpectralValue::Flat(x)) if x > 0.0 => Ok(x),
         _ => Err(ExportError::refused(name, "expected a positive number for all wavelengths")),
     }
 }
 
-/// Facets of the given shape, with a film if the chunk has one, and a diffuse part beside them.
+/// Facets of the given shape, with a film if the chunk has one, plus a diffuse part.
 fn facets(
-    chunk: &Chunk,
-    chunks: &[Chunk],
+    chunk: &SceneChunk,
+    chunks: &[SceneChunk],
     files: &dyn Files,
     shape: &[(&str, String)],
 ) -> Result<Material, ExportError> {
     let name = chunk.name();
     let value = |slot: &str| scalar(chunk, slot, chunks, files);
     if chunk.get("fresnel_mode").is_some_and(|mode| mode == "schlick_f0") {
-        let problem = "schlick_f0 is no index: give ior and extinction, fresnel_mode conductor";
+        let problem =
+            "schlick_f0 is not an index: give ior and extinction with fresnel_mode conductor";
         return Err(ExportError::refused("fresnel_mode", problem));
     }
     let missing = || ExportError::refused("ior", "the material has no index");
     let (n, k) = (value("ior")?.ok_or_else(missing)?, value("extinction")?);
     let weight = match colour(chunk, "rs", chunks, files)? {
         None => 1.0,
-        Some(Values::Flat(weight)) => weight,
-        Some(Values::Over(points)) if points.iter().all(|p| p.1 == points[0].1) => points[0].1,
-        Some(Values::Over(_)) => {
-            let problem = "it varies over wavelength: put the colour of the lobe into ior and \
+        Some(SpectralValue::Flat(weight)) => weight,
+        Some(SpectralValue::Over(points)) if points.iter().all(|p| p.1 == points[0].1) => {
+            points[0].1
+        }
+        Some(SpectralValue::Over(_)) => {
+            let problem = "it varies over wavelength: express the colour of the lobe by ior and \
                            extinction";
             return Err(ExportError::refused("rs", problem));
         }
     };
-    let mut draft = Draft::default();
-    let k = k.unwrap_or(Values::Flat(0.0));
+    let mut draft = MaterialDraft::default();
+    let k = k.unwrap_or(SpectralValue::Flat(0.0));
     let substrate = draft.index(&format!("{name}_nk.txt"), &n, &k);
     draft.set("substrate", &substrate);
     draft.set("factor1", weight);
@@ -166,7 +174,7 @@ fn facets(
     if chunk.get("fresnel_mode").is_some_and(|mode| mode == "thinfilm") {
         film(&mut draft, chunk, chunks, files)?;
     }
-    let diffuse = colour(chunk, "rd", chunks, files)?.unwrap_or(Values::Flat(0.0));
+    let diffuse = colour(chunk, "rd", chunks, files)?.unwrap_or(SpectralValue::Flat(0.0));
     draft.set("factor2", 1);
     draft.set("source2", "Lambertian_BRDF_Model");
     draft.set("source2.substrate", &substrate);
@@ -176,16 +184,16 @@ fn facets(
 
 /// A film of `film_thickness` (nm) on the facets.
 fn film(
-    draft: &mut Draft,
-    chunk: &Chunk,
-    chunks: &[Chunk],
+    draft: &mut MaterialDraft,
+    chunk: &SceneChunk,
+    chunks: &[SceneChunk],
     files: &dyn Files,
 ) -> Result<(), ExportError> {
     let value = |slot: &str| scalar(chunk, slot, chunks, files);
     let missing = |slot: &str| ExportError::refused(slot, "the film has none");
     let n = value("film_ior")?.ok_or_else(|| missing("film_ior"))?;
-    let k = value("film_extinction")?.unwrap_or(Values::Flat(0.0));
-    let Some(Values::Flat(nm)) = value("film_thickness")? else {
+    let k = value("film_extinction")?.unwrap_or(SpectralValue::Flat(0.0));
+    let Some(SpectralValue::Flat(nm)) = value("film_thickness")? else {
         return Err(missing("film_thickness"));
     };
     let index = draft.index(&format!("{}_film_nk.txt", chunk.name()), &n, &k);

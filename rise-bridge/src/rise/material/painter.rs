@@ -1,20 +1,20 @@
-//! What painters and scalar slots of a scene say over wavelength.
+//! Painters and scalar slots of a scene as values over wavelength.
 
 use mist_engine::Files;
 
-use super::super::scene::Chunk;
+use super::super::scene::SceneChunk;
 use crate::export::ExportError;
 
 /// A number, or numbers over the wavelength in nm.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Values {
+pub(super) enum SpectralValue {
     /// The same at every wavelength.
     Flat(f64),
-    /// Linear between these, held beyond them.
+    /// Linear between these points, constant beyond them.
     Over(Vec<(f64, f64)>),
 }
 
-impl Values {
+impl SpectralValue {
     /// The value at `nm`.
     pub(super) fn at(&self, nm: f64) -> f64 {
         let points = match self {
@@ -38,23 +38,23 @@ impl Values {
     }
 }
 
-/// The scalar that stands in the slot `name` of `chunk`: a number or a `scalar_painter`.
+/// The scalar in the slot `name` of `chunk`: a number or a `scalar_painter`.
 pub(super) fn scalar(
-    chunk: &Chunk,
+    chunk: &SceneChunk,
     name: &str,
-    chunks: &[Chunk],
+    chunks: &[SceneChunk],
     files: &dyn Files,
-) -> Result<Option<Values>, ExportError> {
+) -> Result<Option<SpectralValue>, ExportError> {
     let Some(slot) = chunk.get(name) else { return Ok(None) };
     if let Ok(number) = slot.parse() {
-        return Ok(Some(Values::Flat(number)));
+        return Ok(Some(SpectralValue::Flat(number)));
     }
     let painter = painter(slot, "scalar_painter", name, chunks)?;
     if let Some(value) = painter.get("value") {
-        return Ok(Some(Values::Flat(number(name, value)?)));
+        return Ok(Some(SpectralValue::Flat(number(name, value)?)));
     }
     if let Some(file) = painter.get("file") {
-        return Ok(Some(Values::Over(samples(name, &read(file, files)?)?)));
+        return Ok(Some(SpectralValue::Over(samples(name, &read(file, files)?)?)));
     }
     if let Some(terms) = painter.get("sellmeier") {
         return Ok(Some(sellmeier(name, terms)?));
@@ -63,13 +63,13 @@ pub(super) fn scalar(
     Err(ExportError::refused(name, problem))
 }
 
-/// The colour that stands in the slot `name` of `chunk` as reflectance over wavelength.
+/// The colour in the slot `name` of `chunk` as reflectance over wavelength.
 pub(super) fn colour(
-    chunk: &Chunk,
+    chunk: &SceneChunk,
     name: &str,
-    chunks: &[Chunk],
+    chunks: &[SceneChunk],
     files: &dyn Files,
-) -> Result<Option<Values>, ExportError> {
+) -> Result<Option<SpectralValue>, ExportError> {
     let Some(slot) = chunk.get(name).filter(|slot| *slot != "none") else { return Ok(None) };
     if let Ok(painter) = painter(slot, "uniformcolor_painter", name, chunks) {
         let words: Vec<&str> = painter.get("color").unwrap_or("1 1 1").split_whitespace().collect();
@@ -77,26 +77,26 @@ pub(super) fn colour(
             && r == g
             && g == b
         {
-            return Ok(Some(Values::Flat(number(name, r)?)));
+            return Ok(Some(SpectralValue::Flat(number(name, r)?)));
         }
         let problem = format!("{slot} is a colour, which is no spectrum: give a spectral_painter");
         return Err(ExportError::refused(name, problem));
     }
     let painter = painter(slot, "spectral_painter", name, chunks)?;
     if let Some(file) = painter.get("file") {
-        return Ok(Some(Values::Over(samples(name, &read(file, files)?)?)));
+        return Ok(Some(SpectralValue::Over(samples(name, &read(file, files)?)?)));
     }
     let points = painter.lines.iter().filter(|(key, _)| key == "cp").map(|(_, cp)| cp.as_str());
     let points: Vec<&str> = points.collect();
-    Ok(Some(Values::Over(samples(name, &points.join("\n"))?)))
+    Ok(Some(SpectralValue::Over(samples(name, &points.join("\n"))?)))
 }
 
 fn painter<'c>(
     slot: &str,
     keyword: &str,
     name: &str,
-    chunks: &'c [Chunk],
-) -> Result<&'c Chunk, ExportError> {
+    chunks: &'c [SceneChunk],
+) -> Result<&'c SceneChunk, ExportError> {
     let found = chunks.iter().find(|chunk| chunk.keyword == keyword && chunk.name() == slot);
     found.ok_or_else(|| {
         ExportError::refused(name, format!("{slot:?} is no number and no {keyword} of the scene"))
@@ -134,7 +134,7 @@ fn samples(name: &str, text: &str) -> Result<Vec<(f64, f64)>, ExportError> {
 }
 
 /// n = √(1 + Σ B λ²/(λ² − C)), λ in µm, sampled over the visible.
-fn sellmeier(name: &str, terms: &str) -> Result<Values, ExportError> {
+fn sellmeier(name: &str, terms: &str) -> Result<SpectralValue, ExportError> {
     let terms: Result<Vec<f64>, _> =
         terms.split_whitespace().map(|word| number(name, word)).collect();
     let [b1, b2, b3, c1, c2, c3] = terms?[..] else {
@@ -146,5 +146,7 @@ fn sellmeier(name: &str, terms: &str) -> Result<Values, ExportError> {
             [(b1, c1), (b2, c2), (b3, c3)].map(|(b, c)| b * l2 / (l2 - c)).iter().sum::<f64>();
         (1.0 + sum).sqrt()
     };
-    Ok(Values::Over((36..=83).map(|k| (10.0 * f64::from(k), index(10.0 * f64::from(k)))).collect()))
+    Ok(SpectralValue::Over(
+        (36..=83).map(|k| (10.0 * f64::from(k), index(10.0 * f64::from(k)))).collect(),
+    ))
 }

@@ -1,24 +1,24 @@
-//! From the values of a table to colours on a screen.
+//! Screen colours of the values of a table.
 
 use std::f64::consts::PI;
 
 use mist_engine::colour::ColourTable;
 use spectra::{Adaptation, Matrix3, RgbSpace, Xyz};
 
-/// How a table's linear RGB becomes sRGB.
-pub(super) struct Display {
+/// The conversion from linear RGB of a table to sRGB.
+pub(super) struct DisplayColours {
     space: RgbSpace,
     adapt: Matrix3,
     scale: f64,
 }
 
-impl Display {
-    /// For the space and the quantity of `table`.
+impl DisplayColours {
+    /// The conversion for the space and the quantity of `table`.
     pub(super) fn new(table: &ColourTable) -> Self {
         let space = RgbSpace::parse(&table.space).unwrap_or_else(|_| RgbSpace::srgb());
         let srgb = RgbSpace::srgb();
         let adapt = Adaptation::Bradford.matrix(space.white(), srgb.white());
-        // A space without a proper white is shown unadapted.
+        // A space without a valid white is shown unadapted.
         let adapt = adapt.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
         Self { space, adapt, scale: scale(table) }
     }
@@ -29,14 +29,14 @@ impl Display {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// Whether light text is read better on the colour of row `at` than dark text.
+    /// True if the colour of row `at` is dark, so that text on it should be light.
     pub(super) fn is_dark(&self, table: &ColourTable, at: usize) -> bool {
         let [r, g, b] = self.bytes(table, at).map(f64::from);
         // Luma weights of ITU-R BT.709.
         0.2126 * r + 0.7152 * g + 0.0722 * b < 110.0
     }
 
-    /// sRGB of row `at`; what is brighter than white keeps its hue.
+    /// sRGB of row `at`; colours brighter than white keep their hue.
     fn bytes(&self, table: &ColourTable, at: usize) -> [u8; 3] {
         let xyz = self.space.xyz(table.rows[at].rgb[0]);
         let [x, y, z] = self.adapt.map(|[a, b, c]| a * xyz.x + b * xyz.y + c * xyz.z);
@@ -47,7 +47,7 @@ impl Display {
     }
 }
 
-/// What brings the quantity of a table to a scale on which a perfect diffuser is 1.
+/// The factor by which the quantity of a perfect diffuser becomes 1.
 fn scale(table: &ColourTable) -> f64 {
     match table.quantity.split(' ').next() {
         Some("brdf") => PI,

@@ -5,27 +5,30 @@ use std::fmt::Write as _;
 use mist_engine::colour::ColourTable;
 use mist_format::number::general;
 
-use super::{Display, MARGIN, WIDTH, spread, text};
+use super::{
+    display::DisplayColours,
+    page::{MARGIN, WIDTH, evenly_spaced, text},
+};
 
 pub(super) const HEIGHT: f64 = 320.0;
-/// Room for the numbers left of the axis.
+/// Width of the numbers left of the axis.
 const LEFT: f64 = 64.0;
-/// More curves than this cannot be told apart.
+/// Maximum number of curves.
 const CURVES: usize = 16;
-/// Maxima further apart than this are drawn on a logarithmic scale.
+/// The ratio of maxima beyond which the scale is logarithmic.
 const LINEAR_SPREAD: f64 = 30.0;
-/// Decades of a logarithmic scale, at most.
+/// Maximum number of decades of a logarithmic scale.
 const DECADES: f64 = 4.0;
 
-/// Where values stand on the paper.
-pub(super) struct Axes {
+/// The axes of a graph: from values to coordinates of the page.
+pub(super) struct GraphAxes {
     wavelengths: [f64; 2],
     values: [f64; 2],
     logarithmic: bool,
     top: f64,
 }
 
-impl Axes {
+impl GraphAxes {
     /// Linear axes whose upper edge is at `top`.
     pub(super) fn linear(wavelengths: [f64; 2], values: [f64; 2], top: f64) -> Self {
         Self { wavelengths, values, logarithmic: false, top }
@@ -56,9 +59,14 @@ impl Axes {
     }
 }
 
-/// Draws the graph below `top` and returns where it ends.
-pub(super) fn draw(table: &ColourTable, display: &Display, top: f64, svg: &mut String) -> f64 {
-    let shown: Vec<usize> = spread(table.rows.len(), CURVES)
+/// Draws the graph below `top` and returns its lower edge.
+pub(super) fn draw(
+    table: &ColourTable,
+    display: &DisplayColours,
+    top: f64,
+    svg: &mut String,
+) -> f64 {
+    let shown: Vec<usize> = evenly_spaced(table.rows.len(), CURVES)
         .into_iter()
         .filter(|&row| table.rows[row].spectra[0].len() == table.wavelengths.len())
         .collect();
@@ -83,7 +91,7 @@ pub(super) fn draw(table: &ColourTable, display: &Display, top: f64, svg: &mut S
     top + HEIGHT + 48.0
 }
 
-fn axes(table: &ColourTable, shown: &[usize], top: f64) -> Axes {
+fn axes(table: &ColourTable, shown: &[usize], top: f64) -> GraphAxes {
     let maxima: Vec<f64> = shown
         .iter()
         .map(|&row| table.rows[row].spectra[0].iter().copied().fold(0.0, f64::max))
@@ -102,10 +110,10 @@ fn axes(table: &ColourTable, shown: &[usize], top: f64) -> Axes {
     };
     let first = table.wavelengths.first().copied().unwrap_or(0.0);
     let last = table.wavelengths.last().copied().unwrap_or(1.0);
-    Axes { wavelengths: [first, last], values, logarithmic, top }
+    GraphAxes { wavelengths: [first, last], values, logarithmic, top }
 }
 
-pub(super) fn draw_axes(axes: &Axes, quantity: &str, svg: &mut String) {
+pub(super) fn draw_axes(axes: &GraphAxes, quantity: &str, svg: &mut String) {
     let [low, high] = axes.wavelengths.map(|w| axes.x(w));
     let bottom = axes.top + HEIGHT;
     for value in axes.value_ticks() {

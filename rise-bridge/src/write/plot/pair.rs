@@ -1,14 +1,13 @@
-//! Measured spectra as dots, simulated ones as lines, drawn through and scaled to the dots.
+//! Measured spectra as dots, simulated spectra as lines, unscaled and scaled to the dots.
 
 use std::fmt::Write as _;
 
 use mist_format::number::general;
-use spectra::compare::Comparison;
+use spectra::compare::SpectrumComparison;
 
 use super::{
-    MARGIN, TITLE, WIDTH,
-    graph::{Axes, HEIGHT, draw_axes, line},
-    text,
+    graph::{GraphAxes, HEIGHT, draw_axes, line},
+    page::{MARGIN, TITLE, WIDTH, text},
 };
 
 /// Colour of the simulated curve.
@@ -16,7 +15,7 @@ const SIMULATED: &str = "#1f5fbf";
 
 /// The pictures of comparisons, one below the other; with each the names of the measured and the
 /// simulated spectrum.
-pub fn plot_comparisons(comparisons: &[([&str; 2], &Comparison)]) -> String {
+pub fn plot_comparisons(comparisons: &[([&str; 2], &SpectrumComparison)]) -> String {
     let mut body = String::new();
     let mut y = MARGIN;
     for (names, comparison) in comparisons {
@@ -30,13 +29,18 @@ pub fn plot_comparisons(comparisons: &[([&str; 2], &Comparison)]) -> String {
     )
 }
 
-fn draw([measured, simulated]: [&str; 2], c: &Comparison, top: f64, svg: &mut String) -> f64 {
+fn draw(
+    [measured, simulated]: [&str; 2],
+    c: &SpectrumComparison,
+    top: f64,
+    svg: &mut String,
+) -> f64 {
     let scaled: Vec<f64> = c.simulated.iter().map(|v| c.scale * v).collect();
     let all = || c.measured.iter().chain(&c.simulated).chain(&scaled).copied();
     let (low, high) = (all().fold(0.0, f64::min), all().fold(0.0, f64::max));
     let high = if high > low { high } else { low + 1.0 };
     let ends = [c.wavelengths[0], c.wavelengths[c.wavelengths.len() - 1]];
-    let axes = Axes::linear(ends, [low, high + 0.05 * (high - low)], top + TITLE);
+    let axes = GraphAxes::linear(ends, [low, high + 0.05 * (high - low)], top + TITLE);
     draw_axes(&axes, "dots measured, line simulated, dashes simulated × factor", svg);
     text(svg, (MARGIN, top + 16.0), "font-size=\"16\"", measured);
     text(svg, (MARGIN, top + 34.0), &format!("fill=\"{SIMULATED}\""), simulated);
@@ -50,9 +54,9 @@ fn draw([measured, simulated]: [&str; 2], c: &Comparison, top: f64, svg: &mut St
     );
     text(svg, (MARGIN, top + 50.0), "fill=\"#555\"", &numbers);
     for (values, dashes) in [(&c.simulated, ""), (&scaled, " stroke-dasharray=\"6 4\"")] {
-        let places = c.wavelengths.iter().zip(values);
+        let points = c.wavelengths.iter().zip(values);
         let points: String =
-            places.map(|(w, v)| format!("{:.1},{:.1} ", axes.x(*w), axes.y(*v))).collect();
+            points.map(|(w, v)| format!("{:.1},{:.1} ", axes.x(*w), axes.y(*v))).collect();
         // Writing to a string cannot fail.
         let _ = writeln!(
             svg,

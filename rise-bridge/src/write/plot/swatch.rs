@@ -5,27 +5,35 @@ use std::fmt::Write as _;
 use mist_engine::colour::{ColourTable, Layout};
 use mist_format::number::general;
 
-use super::{Display, MARGIN, WIDTH, spread, text};
+use super::{
+    display::DisplayColours,
+    page::{MARGIN, WIDTH, evenly_spaced, text},
+};
 use crate::column;
 
-/// Side of a square, at most.
+/// Maximum side of a square.
 const SIDE: f64 = 72.0;
-/// Squares narrower than this have no room for their intensity.
+/// Minimum side of a square with its intensity as text.
 const LABELLED: f64 = 40.0;
-/// Squares side by side, and lines of squares, at most.
+/// Maximum number of squares in a line, and of lines.
 const MOST: usize = 48;
-/// Squares side by side where the table has no shape of its own.
+/// Squares per line of a table without axes.
 const WRAP: usize = 12;
 
-/// Draws the swatches below `top` and returns where they end.
-pub(super) fn draw(table: &ColourTable, display: &Display, top: f64, svg: &mut String) -> f64 {
+/// Draws the swatches below `top` and returns their lower edge.
+pub(super) fn draw(
+    table: &ColourTable,
+    display: &DisplayColours,
+    top: f64,
+    svg: &mut String,
+) -> f64 {
     let across = across(table);
     let down = table.rows.len().div_ceil(across);
-    let columns = spread(across, MOST);
+    let columns = evenly_spaced(across, MOST);
     let side = ((WIDTH - 2.0 * MARGIN) / columns.len().max(1) as f64).min(SIDE);
     text(svg, (MARGIN, top + 10.0), "fill=\"#555\"", &caption(table, side));
     let top = top + 20.0;
-    let lines = spread(down, MOST);
+    let lines = evenly_spaced(down, MOST);
     for (j, &line) in lines.iter().enumerate() {
         for (i, &column) in columns.iter().enumerate() {
             let row = line * across + column;
@@ -38,13 +46,13 @@ pub(super) fn draw(table: &ColourTable, display: &Display, top: f64, svg: &mut S
     top + side * lines.len() as f64
 }
 
-/// How many squares stand side by side: the fastest axis of a grid, or the rows of a list
-/// before its slowest column changes.
+/// The number of squares in a line: the fastest axis of a grid, or the rows of a list before its
+/// slowest column changes.
 fn across(table: &ColourTable) -> usize {
     if let Layout::Grid { axes, .. } = &table.layout {
         return axes.last().map_or(1, |axis| axis.nodes.len()).max(1);
     }
-    let slowest = |at: usize| column::place_values(&table.rows[at])[0];
+    let slowest = |at: usize| column::patch_values(&table.rows[at])[0];
     let count = table.rows.len();
     let run = (1..count).find(|&at| slowest(at) != slowest(0)).unwrap_or(count);
     if run > 1 && count.is_multiple_of(run) && run < count { run } else { count.clamp(1, WRAP) }
@@ -58,7 +66,7 @@ fn caption(table: &ColourTable, side: f64) -> String {
 
 fn square(
     table: &ColourTable,
-    display: &Display,
+    display: &DisplayColours,
     at: usize,
     (x, y): (f64, f64),
     side: f64,
@@ -66,8 +74,8 @@ fn square(
 ) {
     let row = &table.rows[at];
     let intensity = row.xyz[0][1];
-    let names = column::place_names(table);
-    let places = names.iter().zip(column::place_values(row));
+    let names = column::patch_names(table);
+    let places = names.iter().zip(column::patch_values(row));
     let title: String = places.map(|(name, v)| format!("{name} {} ", general(v, 6))).collect();
     // Writing to a string cannot fail.
     let _ = writeln!(

@@ -1,12 +1,12 @@
-//! How far a table is from its material between its nodes, and the smallest grid that is near.
+//! The interpolation error of a table, and the coarsest grid within a tolerance.
 
 use scattering::{Basis, Geometry, Model};
 
-use super::Axes;
-use crate::export::{Bands, ExportError, Spread, even};
+use super::layout::GoniometerAxes;
+use crate::export::{Bands, ExportError, InterpolationError, r3_sequence};
 
-/// Steps of θ_i, θ_s and φ_s in degrees that are tried, from coarse to fine.
-const LADDER: [[f64; 3]; 6] = [
+/// Candidate steps of θ_i, θ_s and φ_s in degrees, from coarse to fine.
+const CANDIDATES: [[f64; 3]; 6] = [
     [16.0, 17.0, 20.0],
     [10.0, 5.0, 10.0],
     [5.0, 5.0, 5.0],
@@ -18,30 +18,33 @@ const LADDER: [[f64; 3]; 6] = [
 const ENDS: [f64; 3] = [80.0, 85.0, 180.0];
 
 /// The error of linear interpolation between the nodes of `axes`.
-pub fn spread(bands: &Bands, axes: &Axes) -> Spread {
-    Spread::of(|n| sample(bands, axes, n))
+pub fn interpolation_error(bands: &Bands, axes: &GoniometerAxes) -> InterpolationError {
+    InterpolationError::measure(|n| sample(bands, axes, n))
 }
 
-/// The coarsest grid of a ladder on which 95 % of the light has an error below `tolerance`.
+/// The coarsest candidate grid on which 95 % of the light has an error below `tolerance`.
 ///
 /// # Errors
 ///
-/// If the finest is still too coarse.
-pub fn choose_axes(bands: &Bands, tolerance: f64) -> Result<(Axes, Spread), ExportError> {
+/// If the finest candidate exceeds the tolerance.
+pub fn choose_axes(
+    bands: &Bands,
+    tolerance: f64,
+) -> Result<(GoniometerAxes, InterpolationError), ExportError> {
     let mut last = f64::INFINITY;
-    for steps in LADDER {
+    for steps in CANDIDATES {
         let nodes = |k: usize| {
             let count = (ENDS[k] / steps[k]).round() as usize;
             (0..=count).map(|i| steps[k] * i as f64).collect()
         };
-        let axes = Axes { thetai: nodes(0), thetas: nodes(1), phis: nodes(2) };
-        let found = spread(bands, &axes);
-        if found.most <= tolerance {
+        let axes = GoniometerAxes { thetai: nodes(0), thetas: nodes(1), phis: nodes(2) };
+        let found = interpolation_error(bands, &axes);
+        if found.quantile_95 <= tolerance {
             return Ok((axes, found));
         }
-        last = found.most;
+        last = found.quantile_95;
     }
-    let [i, s, phi] = LADDER[LADDER.len() - 1];
+    let [i, s, phi] = CANDIDATES[CANDIDATES.len() - 1];
     let problem = format!(
         "the finest grid, steps of {i}, {s} and {phi} degrees, has an error of {:.2} %, more than \
          {:.2} %; give the nodes around the highlight",
@@ -52,8 +55,8 @@ pub fn choose_axes(bands: &Bands, tolerance: f64) -> Result<(Axes, Spread), Expo
 }
 
 /// Per wavelength (relative error, light) at the n-th direction inside the table.
-fn sample(bands: &Bands, axes: &Axes, n: usize) -> Vec<(f64, f64)> {
-    let parts = even(n);
+fn sample(bands: &Bands, axes: &GoniometerAxes, n: usize) -> Vec<(f64, f64)> {
+    let parts = r3_sequence(n);
     let axes = [&axes.thetai, &axes.thetas, &axes.phis];
     let at: [f64; 3] = std::array::from_fn(|k| {
         let (first, last) = (axes[k][0], axes[k][axes[k].len() - 1]);
@@ -76,7 +79,7 @@ fn sample(bands: &Bands, axes: &Axes, n: usize) -> Vec<(f64, f64)> {
     bands.models().iter().filter_map(compared).collect()
 }
 
-/// The nodes around a place, and their weights.
+/// The nodes around the direction `at`, and their weights.
 fn corners(axes: [&Vec<f64>; 3], at: [f64; 3]) -> Vec<([f64; 3], f64)> {
     let sides: [[(f64, f64); 2]; 3] = std::array::from_fn(|k| {
         let nodes = axes[k];
