@@ -8,7 +8,7 @@ use rise_bridge::{read, write};
 use serde_json::json;
 use spectra::{
     Illuminant, Observer, Spectrum,
-    compare::{Comparison, compare},
+    compare::{SpectrumComparison, compare},
 };
 
 use super::{print, source::Source, stop::Stop};
@@ -106,7 +106,7 @@ pub(super) fn compare_spectra(args: &CompareSpectraArgs) -> Result<(), Stop> {
         found.push(([m_name.as_str(), s_name.as_str()], comparison));
     }
     if let Some(path) = &args.plot {
-        let pictures: Vec<([&str; 2], &Comparison)> =
+        let pictures: Vec<([&str; 2], &SpectrumComparison)> =
             found.iter().map(|(names, comparison)| (*names, comparison)).collect();
         AtomicFile::write(path, &write::plot_comparisons(&pictures))
             .map_err(|error| Stop::Failed(format!("cannot write {}: {error}", path.display())))?;
@@ -115,7 +115,7 @@ pub(super) fn compare_spectra(args: &CompareSpectraArgs) -> Result<(), Stop> {
     print(&if args.json { to_json(&found, &under) } else { describe(&found, &under) })
 }
 
-fn to_json(found: &[([&str; 2], Comparison)], under: &str) -> String {
+fn to_json(found: &[([&str; 2], SpectrumComparison)], under: &str) -> String {
     let lab = |lab: spectra::Lab| [lab.l, lab.a, lab.b];
     let all = found.iter().map(|([measured, simulated], c)| {
         json!({
@@ -140,7 +140,7 @@ fn to_json(found: &[([&str; 2], Comparison)], under: &str) -> String {
     format!("{}\n", json!({ "colours": under, "comparisons": all.collect::<Vec<_>>() }))
 }
 
-fn describe(found: &[([&str; 2], Comparison)], under: &str) -> String {
+fn describe(found: &[([&str; 2], SpectrumComparison)], under: &str) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     for ([measured, simulated], c) in found {

@@ -1,14 +1,14 @@
-//! How far the XYZ of a sampled spectrum may be off, without knowing the truth.
+//! Error estimate for the XYZ of a sampled spectrum.
 //!
 //! D is the change when every other sample is left out. The estimate max(D/16, |Sprague − spline|)
-//! follows the true error within a factor of about 4, until the samples are too coarse to see the
-//! structure at all: then D itself is large. So halve the step when either says so.
+//! follows the true error within a factor of about 4, unless the samples are too coarse for the
+//! structure; then D itself is large. Halve the step if the estimate or D exceeds its limit.
 
 use crate::{
     Illuminant, Observer,
     interpolate::{Extrapolation, Interpolation, Resampler},
     wavelength::Grid,
-    weights::{Sensitivity, Weights},
+    weights::{SpectralSensitivity, XyzWeights},
     xyz::{Xyz, to_array},
 };
 
@@ -18,18 +18,18 @@ const ESTIMATE_LIMIT: f64 = 1e-4;
 /// A change by thinning above this asks for a finer grid.
 const THINNED_LIMIT: f64 = 1e-3;
 
-/// How far the XYZ of a spectrum may be off.
+/// The estimated error of the XYZ of a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Accuracy {
+pub struct XyzAccuracy {
     /// Estimated error, the worst of X, Y and Z.
     pub estimate: f64,
     /// D: the change when every other sample is left out.
     pub thinned: f64,
 }
 
-impl Accuracy {
-    /// Whether the spectrum should be computed with half the step. For XYZ with white Y = 1.
-    pub fn wants_finer_grid(&self) -> bool {
+impl XyzAccuracy {
+    /// True if the spectrum should be computed with half the step; for XYZ with white Y = 1.
+    pub fn needs_finer_grid(&self) -> bool {
         self.estimate > ESTIMATE_LIMIT || self.thinned > THINNED_LIMIT
     }
 }
@@ -37,10 +37,10 @@ impl Accuracy {
 /// The weights for estimates on one grid.
 #[derive(Clone, Debug)]
 pub struct AccuracyCheck {
-    all: Weights,
-    thinned: Weights,
+    all: XyzWeights,
+    thinned: XyzWeights,
     /// Only where the samples are interpolated by Sprague's formula.
-    spline: Option<Weights>,
+    spline: Option<XyzWeights>,
 }
 
 impl AccuracyCheck {
@@ -51,16 +51,17 @@ impl AccuracyCheck {
         observer: Observer,
         outside: Extrapolation,
     ) -> Option<Self> {
-        let sensitivity = Sensitivity::relative(illuminant, observer);
+        let sensitivity = SpectralSensitivity::relative(illuminant, observer);
         let half = grid.every_other()?;
-        let half_weights = Weights::fold(&half, &Resampler::for_grid(&half, outside), &sensitivity);
+        let half_weights =
+            XyzWeights::fold(&half, &Resampler::for_grid(&half, outside), &sensitivity);
         let spline = (Interpolation::for_grid(grid) == Interpolation::Sprague)
             .then(|| Resampler::new(grid, Interpolation::Cubic, outside).ok())
             .flatten()
-            .map(|resampler| Weights::fold(grid, &resampler, &sensitivity));
+            .map(|resampler| XyzWeights::fold(grid, &resampler, &sensitivity));
         Some(Self {
-            all: Weights::fold(grid, &Resampler::for_grid(grid, outside), &sensitivity),
-            thinned: half_weights.spread_to_every_other(grid),
+            all: XyzWeights::fold(grid, &Resampler::for_grid(grid, outside), &sensitivity),
+            thinned: half_weights.on_full_grid(grid),
             spline,
         })
     }
@@ -70,11 +71,11 @@ impl AccuracyCheck {
     /// # Panics
     ///
     /// If there are not as many samples as wavelengths.
-    pub fn estimate(&self, values: &[f64]) -> Accuracy {
+    pub fn estimate(&self, values: &[f64]) -> XyzAccuracy {
         let all = self.all.xyz(values);
         let thinned = distance(all, self.thinned.xyz(values));
         let spline = self.spline.as_ref().map_or(0.0, |spline| distance(all, spline.xyz(values)));
-        Accuracy { estimate: spline.max(thinned / 16.0), thinned }
+        XyzAccuracy { estimate: spline.max(thinned / 16.0), thinned }
     }
 }
 
@@ -91,7 +92,7 @@ mod tests {
         0.3 + 0.2 * (2.0 * std::f64::consts::TAU * 2.5 * thickness_nm / nm).cos()
     }
 
-    fn check(thickness_nm: f64, step_nm: f64) -> (Accuracy, f64) {
+    fn check(thickness_nm: f64, step_nm: f64) -> (XyzAccuracy, f64) {
         let light = Illuminant::named("D65").unwrap();
         let at = |step: f64| {
             let n = (390.0 / step) as usize + 1;
@@ -104,7 +105,7 @@ mod tests {
             AccuracyCheck::new(&grid, &light, Observer::Cie1931_2, Extrapolation::Hold).unwrap();
         let (fine_grid, fine_values) = at(1.0);
         let xyz = |grid: &Grid, values: &[f64]| {
-            Weights::new(grid, &light, Observer::Cie1931_2, Extrapolation::Hold).xyz(values)
+            XyzWeights::new(grid, &light, Observer::Cie1931_2, Extrapolation::Hold).xyz(values)
         };
         let truth = distance(xyz(&grid, &values), xyz(&fine_grid, &fine_values));
         (check.estimate(&values), truth)
@@ -113,9 +114,9 @@ mod tests {
     #[test]
     fn a_thin_film_is_fine_at_10_nm_and_a_thick_one_is_not() {
         let (thin, error) = check(100.0, 10.0);
-        assert!(!thin.wants_finer_grid() && error < 1e-4, "{thin:?} {error}");
+        assert!(!thin.needs_finer_grid() && error < 1e-4, "{thin:?} {error}");
         let (thick, error) = check(2000.0, 10.0);
-        assert!(thick.wants_finer_grid() && error > 1e-4, "{thick:?} {error}");
+        assert!(thick.needs_finer_grid() && error > 1e-4, "{thick:?} {error}");
     }
 
     #[test]

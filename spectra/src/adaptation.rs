@@ -13,24 +13,24 @@ use thiserror::Error;
 
 use crate::{
     matrix::{IDENTITY, Matrix3, apply, inverse, multiply, scale_columns},
-    name::{Named, UnknownName},
+    name::{NamedValue, UnknownName},
     xyz::{Xyz, to_array},
 };
 
-/// A white to which this adaptation does not apply.
+/// The adaptation is not defined for a white.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{adaptation} adaptation has no positive cone responses for the white {white:?}")]
 pub struct AdaptationError {
     /// The adaptation.
     pub adaptation: &'static str,
-    /// The XYZ of the white at fault.
+    /// The XYZ of the white.
     pub white: [f64; 3],
 }
 
 /// A chromatic adaptation transform.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Adaptation {
-    /// None: XYZ go into the RGB matrix as they are.
+    /// None: XYZ are not adapted.
     None,
     /// Linear Bradford.
     #[default]
@@ -44,12 +44,12 @@ pub enum Adaptation {
 }
 
 impl Adaptation {
-    const NAMES: [Named<Self>; 5] = [
-        Named("none", Self::None),
-        Named("Bradford", Self::Bradford),
-        Named("CAT02", Self::Cat02),
-        Named("CAT16", Self::Cat16),
-        Named("VonKries", Self::VonKries),
+    const NAMES: [NamedValue<Self>; 5] = [
+        NamedValue("none", Self::None),
+        NamedValue("Bradford", Self::Bradford),
+        NamedValue("CAT02", Self::Cat02),
+        NamedValue("CAT16", Self::Cat16),
+        NamedValue("VonKries", Self::VonKries),
     ];
 
     /// The adaptation called `none`, `Bradford`, `CAT02`, `CAT16` or `VonKries`.
@@ -58,12 +58,12 @@ impl Adaptation {
     ///
     /// If it is none of these.
     pub fn parse(text: &str) -> Result<Self, UnknownName> {
-        Named::find("adaptation", text, &Self::NAMES)
+        NamedValue::find("adaptation", text, &Self::NAMES)
     }
 
     /// The name that [`parse`](Self::parse) reads.
     pub fn name(self) -> &'static str {
-        Named::name_of(&Self::NAMES, self)
+        NamedValue::name_of(&Self::NAMES, self)
     }
 
     /// The matrix from XYZ to cone responses.

@@ -2,10 +2,10 @@
 //!
 //! The products P(λ) = S c̄ at 1 nm from 360 to 780 nm are spread onto the nodes 360, 370, … 780 nm by
 //! cubic Lagrange coefficients (quadratic in the first and the last interval) and divided by Σ W_y.
-//! Weights beyond the ends of the samples are added to the first and the last one. Samples at 20 nm
+//! Weights beyond the ends of the samples are added to the first and the last one. AstmSamples at 20 nm
 //! are first brought to 10 nm. At 5 nm every fifth product is summed, at 1 nm each.
 //!
-//! The method of the tool is the 1 nm sum of [`crate::xyz`]; this one is off by 1e-4 for many
+//! The 1 nm sum of [`crate::xyz`] is more accurate; the error of this method is 1e-4 for many
 //! spectra.
 //!
 //! ASTM E308-18 and E2022-16, as implemented by colour-science 0.4.7.
@@ -34,9 +34,9 @@ pub enum AstmError {
     /// Too few samples between 360 and 780 nm.
     #[error("astm e308 needs at least {needed} samples from 360 to 780 nm, got {got}")]
     TooFew {
-        /// How many there are.
+        /// The number of samples.
         got: usize,
-        /// How many it takes.
+        /// The required number.
         needed: usize,
     },
 }
@@ -51,7 +51,7 @@ pub fn reflected(
     illuminant: &Illuminant,
     observer: Observer,
 ) -> Result<Xyz, AstmError> {
-    let samples = Samples::new(reflectance)?;
+    let samples = AstmSamples::new(reflectance)?;
     let products = products(illuminant, observer);
     let xyz = match samples.step {
         20 => weighted(&samples.halved()?, &products),
@@ -61,14 +61,14 @@ pub fn reflected(
     Ok(from_array(xyz))
 }
 
-/// Samples on whole nanometres between 360 and 780 nm.
-struct Samples {
+/// AstmSamples on whole nanometres between 360 and 780 nm.
+struct AstmSamples {
     first: usize,
     step: usize,
     values: Vec<f64>,
 }
 
-impl Samples {
+impl AstmSamples {
     fn new(spectrum: &Spectrum) -> Result<Self, AstmError> {
         let nm = spectrum.grid().nm();
         let step = spectrum.grid().step_nm().ok_or(AstmError::Step)?.round() as usize;
@@ -105,7 +105,7 @@ impl Samples {
         self.values[(nm.clamp(self.first, self.last()) - self.first) / self.step]
     }
 
-    /// Samples at half the step by the four-point formula, the ends continued quadratically.
+    /// AstmSamples at half the step by the four-point formula, the ends continued quadratically.
     fn halved(&self) -> Result<Self, AstmError> {
         let v = &self.values;
         let n = v.len();
@@ -130,8 +130,8 @@ fn products(illuminant: &Illuminant, observer: Observer) -> Vec<[f64; 3]> {
     both.take(LAST - FIRST + 1).map(|(s, c)| c.map(|c| s * c)).collect()
 }
 
-/// Samples at 10 nm with the products spread onto their nodes.
-fn weighted(samples: &Samples, products: &[[f64; 3]]) -> [f64; 3] {
+/// AstmSamples at 10 nm with the products spread onto their nodes.
+fn weighted(samples: &AstmSamples, products: &[[f64; 3]]) -> [f64; 3] {
     let weights = node_weights(products);
     let total: f64 = weights.iter().map(|w| w[1]).sum();
     let mut sum = [0.0; 3];
@@ -175,8 +175,8 @@ fn lagrange(node: usize, nodes: std::ops::RangeInclusive<usize>, at: f64) -> f64
     others.map(|other| (at - other) / (node as f64 - other)).product()
 }
 
-/// Samples at 1 or 5 nm with the products at their wavelengths.
-fn summed(samples: &Samples, products: &[[f64; 3]]) -> [f64; 3] {
+/// AstmSamples at 1 or 5 nm with the products at their wavelengths.
+fn summed(samples: &AstmSamples, products: &[[f64; 3]]) -> [f64; 3] {
     let (mut sum, mut total) = ([0.0; 3], 0.0);
     for (i, product) in products.iter().enumerate().step_by(samples.step) {
         let value = samples.held(FIRST + i);

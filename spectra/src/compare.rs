@@ -1,4 +1,4 @@
-//! A measured spectrum beside a simulated one: does it follow it, and by which factor?
+//! Comparison of a measured and a simulated spectrum.
 //!
 //! The simulated spectrum is brought to the measured wavelengths that it covers, by a cubic spline
 //! (straight lines for fewer than four samples). With m measured and s simulated,
@@ -6,9 +6,9 @@
 //! | number | meaning |
 //! | --- | --- |
 //! | rms | √mean (m − s)² |
-//! | scale | k = Σ m s/Σ s², which makes Σ (m − k s)² least |
-//! | rms of the scaled | √mean (m − k s)² |
-//! | correlation | Pearson's, "the same trend" if it is near 1 |
+//! | scale | k = Σ m s/Σ s², which minimizes Σ (m − k s)² |
+//! | scaled rms | √mean (m − k s)² |
+//! | correlation | Pearson's coefficient |
 //! | CIEDE2000 | of the two colours, and of the measured and the scaled one |
 //!
 //! Colours are those of reflectances on a scale on which a perfect diffuser is 1.
@@ -25,7 +25,7 @@ use crate::{
 
 /// The comparison of two spectra.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct SpectrumComparison {
     /// The measured wavelengths that both cover, nm.
     pub wavelengths: Vec<f64>,
     /// Measured values there.
@@ -34,9 +34,9 @@ pub struct Comparison {
     pub simulated: Vec<f64>,
     /// Root of the mean square of the differences.
     pub rms: f64,
-    /// The factor by which the simulated values come nearest to the measured ones.
+    /// The factor on the simulated values that minimizes the difference.
     pub scale: f64,
-    /// Root of the mean square of what is left after it.
+    /// Root of the mean square of the remaining difference.
     pub scaled_rms: f64,
     /// Correlation; none if one of the spectra is constant.
     pub correlation: Option<f64>,
@@ -48,7 +48,7 @@ pub struct Comparison {
     pub scaled_delta_e: f64,
 }
 
-/// Why two spectra cannot be compared.
+/// Errors of comparing two spectra.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CompareError {
     /// They have too few wavelengths in common.
@@ -85,7 +85,7 @@ pub fn compare(
     simulated: &Spectrum,
     illuminant: &Illuminant,
     observer: Observer,
-) -> Result<Comparison, CompareError> {
+) -> Result<SpectrumComparison, CompareError> {
     let known = simulated.grid().nm();
     let (first, last) = (known[0], known[known.len() - 1]);
     let all = measured.grid().nm();
@@ -118,7 +118,7 @@ pub fn compare(
         Ok(lab::from_xyz(spectrum.xyz(illuminant, observer), white))
     };
     let lab = [colour(&m)?, colour(&s)?, colour(&scaled)?];
-    Ok(Comparison {
+    Ok(SpectrumComparison {
         rms: rms(&m, &s),
         scale,
         scaled_rms: rms(&m, &scaled),
@@ -160,7 +160,10 @@ mod tests {
         Spectrum::new(&nm, &nm.iter().map(|nm| value(*nm)).collect::<Vec<_>>()).unwrap()
     }
 
-    fn compared(measured: &Spectrum, simulated: &Spectrum) -> Result<Comparison, CompareError> {
+    fn compared(
+        measured: &Spectrum,
+        simulated: &Spectrum,
+    ) -> Result<SpectrumComparison, CompareError> {
         let d65 = Illuminant::named("D65").unwrap();
         compare(measured, simulated, &d65, Observer::Cie1931_2)
     }

@@ -1,4 +1,4 @@
-//! The CIE's tables, read once from the text in `data/cie`.
+//! The tables of the CIE, read once from the texts in `data/cie`.
 //!
 //! The numbers stay in files of their own, under their own licence (CC BY-SA 4.0).
 
@@ -11,13 +11,13 @@ use crate::{
 
 /// A table of the CIE: wavelengths and one column per function.
 #[derive(Debug)]
-pub(crate) struct Table {
+pub(crate) struct CieTable {
     grid: Grid,
     names: Vec<String>,
     columns: Vec<Vec<f64>>,
 }
 
-impl Table {
+impl CieTable {
     /// Reads a table: comment lines with `#`, a line of names, lines of numbers.
     ///
     /// # Panics
@@ -62,8 +62,8 @@ macro_rules! tables {
     ($($(#[$doc:meta])* $name:ident = $file:literal;)*) => {
         $(
             $(#[$doc])*
-            pub(crate) static $name: LazyLock<Table> =
-                LazyLock::new(|| Table::read(include_str!(concat!("../data/cie/", $file))));
+            pub(crate) static $name: LazyLock<CieTable> =
+                LazyLock::new(|| CieTable::read(include_str!(concat!("../data/cie/", $file))));
         )*
     };
 }
@@ -96,7 +96,7 @@ tables! {
 }
 
 /// The tables of illuminants, in the order in which users see their names.
-pub(crate) static ILLUMINANTS: [&LazyLock<Table>; 11] = [
+pub(crate) static ILLUMINANTS: [&LazyLock<CieTable>; 11] = [
     &ILLUMINANT_A,
     &ILLUMINANT_C,
     &ILLUMINANT_D50,

@@ -16,9 +16,9 @@ use thiserror::Error;
 use crate::name::{UnknownName, call, fold, similar};
 
 /// A Mueller matrix, row by row.
-pub type Mueller = [[f64; 4]; 4];
+pub type FilterMatrix = [[f64; 4]; 4];
 
-/// Why a filter cannot be made.
+/// Errors of making a filter.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FilterError {
     /// Not the name of a filter, or not of the form `name(number, …)`.
@@ -29,9 +29,9 @@ pub enum FilterError {
     Arguments {
         /// The filter.
         filter: &'static str,
-        /// What it takes.
+        /// The accepted arguments.
         expected: &'static str,
-        /// How many there were.
+        /// The number of arguments.
         got: usize,
     },
     /// An argument out of range.
@@ -43,7 +43,7 @@ pub enum FilterError {
         argument: &'static str,
         /// Its value.
         value: f64,
-        /// What is accepted.
+        /// The accepted values.
         expected: &'static str,
     },
 }
@@ -141,7 +141,7 @@ impl Filter {
     }
 
     /// The Mueller matrix at a wavelength in nm.
-    pub fn mueller(&self, nm: f64) -> Mueller {
+    pub fn mueller(&self, nm: f64) -> FilterMatrix {
         match *self {
             Self::Linear { angle, k1, k2 } => linear_mueller(angle, k1, k2),
             Self::Retarder { fast_axis, retardance_nm } => {
@@ -153,7 +153,7 @@ impl Filter {
 }
 
 /// The Mueller matrix of filters in the order in which light meets them, at a wavelength in nm.
-pub fn stack_mueller(filters: &[Filter], nm: f64) -> Mueller {
+pub fn stack_mueller(filters: &[Filter], nm: f64) -> FilterMatrix {
     let mut stack = [[0.0; 4]; 4];
     for (i, row) in stack.iter_mut().enumerate() {
         row[i] = 1.0;
@@ -165,15 +165,15 @@ pub fn stack_mueller(filters: &[Filter], nm: f64) -> Mueller {
 }
 
 /// The Mueller matrix times a Stokes vector.
-pub(crate) fn apply(m: &Mueller, stokes: [f64; 4]) -> [f64; 4] {
+pub(crate) fn apply(m: &FilterMatrix, stokes: [f64; 4]) -> [f64; 4] {
     m.map(|row| row.iter().zip(stokes).map(|(m, s)| m * s).sum())
 }
 
-fn multiply(a: &Mueller, b: &Mueller) -> Mueller {
+fn multiply(a: &FilterMatrix, b: &FilterMatrix) -> FilterMatrix {
     a.map(|row| [0, 1, 2, 3].map(|j| (0..4).map(|k| row[k] * b[k][j]).sum()))
 }
 
-fn linear_mueller(angle: f64, k1: f64, k2: f64) -> Mueller {
+fn linear_mueller(angle: f64, k1: f64, k2: f64) -> FilterMatrix {
     let (s, c) = (2.0 * angle).sin_cos();
     let (a, b, r) = (0.5 * (k1 + k2), 0.5 * (k1 - k2), (k1 * k2).sqrt());
     [
@@ -184,7 +184,7 @@ fn linear_mueller(angle: f64, k1: f64, k2: f64) -> Mueller {
     ]
 }
 
-fn retarder_mueller(fast_axis: f64, delta: f64) -> Mueller {
+fn retarder_mueller(fast_axis: f64, delta: f64) -> FilterMatrix {
     let (s, c) = (2.0 * fast_axis).sin_cos();
     let (sin, cos) = delta.sin_cos();
     [
@@ -195,7 +195,7 @@ fn retarder_mueller(fast_axis: f64, delta: f64) -> Mueller {
     ]
 }
 
-fn circular_mueller(h: f64) -> Mueller {
+fn circular_mueller(h: f64) -> FilterMatrix {
     [[0.5, 0.0, 0.0, 0.5 * h], [0.0; 4], [0.0; 4], [0.5 * h, 0.0, 0.0, 0.5]]
 }
 

@@ -19,7 +19,7 @@ use crate::{
     interpolate::{Extrapolation, Interpolation, Resampler},
     name::{UnknownName, call, fold},
     wavelength::{FINE_COUNT, Fine, Grid, GridError, fine_wavelengths},
-    xyz::{self, Xyz},
+    xyz::Xyz,
 };
 
 /// Second radiation constant h c / k, in nm K (exact in the SI of 2019).
@@ -28,24 +28,24 @@ const SECOND_RADIATION_CONSTANT_NM_K: f64 = 6.626_070_15e-34 * 299_792_458.0 / 1
 /// Temperatures for which the CIE defines daylight, in K.
 const DAYLIGHT_K: std::ops::RangeInclusive<f64> = 4000.0..=25000.0;
 
-/// Why an illuminant cannot be made.
+/// Errors of making an illuminant.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum IlluminantError {
     /// Neither the name of a table nor a temperature.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
-    /// A temperature at which there is no such light.
+    /// A temperature out of range.
     #[error("temperature {kelvin} K, expected {expected}")]
     Temperature {
         /// The temperature, in K.
         kelvin: f64,
-        /// What is accepted.
+        /// The accepted temperatures.
         expected: &'static str,
     },
     /// Samples that are not a spectrum.
     #[error(transparent)]
     Samples(#[from] GridError),
-    /// A light that no observer sees.
+    /// A light without luminance.
     #[error("the light has no positive luminance between 360 and 830 nm")]
     Dark,
 }
@@ -81,17 +81,17 @@ impl Illuminant {
     ///
     /// If there is none.
     pub fn named(name: &str) -> Result<Self, UnknownName> {
-        let wanted = match fold(name).strip_prefix('f') {
+        let folded = match fold(name).strip_prefix('f') {
             Some(number) if number.starts_with(|c: char| c.is_ascii_digit()) => {
                 format!("fl{number}")
             }
             _ => fold(name),
         };
-        if wanted == "e" {
+        if folded == "e" {
             return Ok(Self { name: "E".to_owned(), fine: Box::new([100.0; FINE_COUNT]) });
         }
         for table in ILLUMINANTS {
-            if let Some(index) = table.names().iter().position(|name| fold(name) == wanted) {
+            if let Some(index) = table.names().iter().position(|name| fold(name) == folded) {
                 return Ok(Self { name: table.names()[index].clone(), fine: table.fine(index) });
             }
         }
@@ -110,8 +110,7 @@ impl Illuminant {
     ///
     /// # Errors
     ///
-    /// If the temperature is not from 500 K to 1e6 K: colder bodies give no visible light worth the
-    /// name.
+    /// If the temperature is not from 500 K to 1e6 K; colder bodies emit hardly any visible light.
     pub fn planck(kelvin: f64) -> Result<Self, IlluminantError> {
         if !(500.0..=1e6).contains(&kelvin) {
             let expected = "from 500 to 1000000 K for a black body";
@@ -148,7 +147,7 @@ impl Illuminant {
     ///
     /// # Errors
     ///
-    /// If the samples do not fit the wavelengths, or nobody sees the light.
+    /// If the samples do not fit the wavelengths, or the light has no luminance.
     pub fn from_samples(name: &str, grid: &Grid, power: &[f64]) -> Result<Self, IlluminantError> {
         Self::interpolated(name, grid, power, Interpolation::Linear, Extrapolation::Zero)
     }
@@ -157,8 +156,8 @@ impl Illuminant {
     ///
     /// # Errors
     ///
-    /// If the interpolation is not possible, the samples do not fit the wavelengths, or nobody sees
-    /// the light.
+    /// If the interpolation is not possible, the samples do not fit the wavelengths, or the
+    /// light has no luminance.
     pub fn interpolated(
         name: &str,
         grid: &Grid,
@@ -168,11 +167,15 @@ impl Illuminant {
     ) -> Result<Self, IlluminantError> {
         let fine = Resampler::new(grid, interpolation, outside)?.fine(&grid.sort(power)?);
         let light = Self { name: name.to_owned(), fine };
-        let seen = |observer| {
+        let is_visible = |observer| {
             let luminance = light.luminance(observer);
             luminance.is_finite() && luminance > 0.0
         };
-        if Observer::ALL.into_iter().all(seen) { Ok(light) } else { Err(IlluminantError::Dark) }
+        if Observer::ALL.into_iter().all(is_visible) {
+            Ok(light)
+        } else {
+            Err(IlluminantError::Dark)
+        }
     }
 
     /// The name: canonical for a CIE illuminant, the text of the number for a temperature.
@@ -187,7 +190,15 @@ impl Illuminant {
 
     /// XYZ of a perfect diffuser under this light; Y = 1.
     pub fn white(&self, observer: Observer) -> Xyz {
-        xyz::reflected(&[1.0; FINE_COUNT], self, observer)
+        let mut sum = [0.0; 3];
+        for (s, c) in self.fine.iter().zip(observer.functions()) {
+            for (sum, c) in sum.iter_mut().zip(c) {
+                *sum += s * c;
+            }
+        }
+        let luminance = self.luminance(observer);
+        let [x, y, z] = sum.map(|sum| sum / luminance);
+        Xyz::new(x, y, z)
     }
 
     /// Σ S ȳ, positive.
@@ -293,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn a_light_that_nobody_sees_is_refused() {
+    fn a_light_without_luminance_is_refused() {
         let grid = Grid::new(&[300.0, 350.0]).unwrap();
         assert_eq!(Illuminant::from_samples("uv", &grid, &[1.0, 1.0]), Err(IlluminantError::Dark));
         let grid = Grid::new(&[400.0, 700.0]).unwrap();

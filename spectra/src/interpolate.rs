@@ -1,9 +1,10 @@
-//! Bringing a spectrum to the 1 nm grid.
+//! Interpolation of a spectrum to the 1 nm grid.
 //!
 //! CIE 167:2005 recommends Sprague's formula for equal steps and a cubic spline otherwise. No
 //! result is clipped: the overshoot belongs to the error, and Stokes values are signed.
 
 mod cubic;
+mod interval;
 mod linear;
 mod sprague;
 
@@ -11,14 +12,14 @@ pub use cubic::cubic_spline;
 pub(crate) use linear::interpolate as straight_lines;
 
 use crate::{
-    name::{Named, UnknownName},
-    wavelength::{Fine, Grid, GridError, fine_wavelengths},
+    name::{NamedValue, UnknownName},
+    wavelength::{FINE_COUNT, Fine, Grid, GridError, fine_wavelengths},
 };
 
-/// How a spectrum is interpolated between its samples.
+/// The interpolation of a spectrum between its samples.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Interpolation {
-    /// Not at all: the samples are 1 nm apart on whole nanometres.
+    /// None: the samples are 1 nm apart on whole nanometres.
     None,
     /// Sprague's fifth-degree formula; equal steps, at least six samples.
     Sprague,
@@ -29,11 +30,11 @@ pub enum Interpolation {
 }
 
 impl Interpolation {
-    const NAMES: [Named<Self>; 4] = [
-        Named("none", Self::None),
-        Named("sprague", Self::Sprague),
-        Named("cubic", Self::Cubic),
-        Named("linear", Self::Linear),
+    const NAMES: [NamedValue<Self>; 4] = [
+        NamedValue("none", Self::None),
+        NamedValue("sprague", Self::Sprague),
+        NamedValue("cubic", Self::Cubic),
+        NamedValue("linear", Self::Linear),
     ];
 
     /// The interpolation for reflectances on `grid`, chosen by its steps and its size.
@@ -55,15 +56,15 @@ impl Interpolation {
     ///
     /// If it is none of these.
     pub fn parse(text: &str) -> Result<Self, UnknownName> {
-        Named::find("interpolation", text, &Self::NAMES)
+        NamedValue::find("interpolation", text, &Self::NAMES)
     }
 
     /// The name that [`parse`](Self::parse) reads.
     pub fn name(self) -> &'static str {
-        Named::name_of(&Self::NAMES, self)
+        NamedValue::name_of(&Self::NAMES, self)
     }
 
-    /// Whether this interpolation is possible on `grid`.
+    /// Checks that this interpolation is possible on `grid`.
     ///
     /// # Errors
     ///
@@ -86,7 +87,7 @@ impl Interpolation {
     }
 }
 
-/// What a spectrum is outside its samples.
+/// The values of a spectrum outside its samples.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Extrapolation {
     /// The value of the nearest sample (reflectances).
@@ -96,7 +97,8 @@ pub enum Extrapolation {
 }
 
 impl Extrapolation {
-    const NAMES: [Named<Self>; 2] = [Named("hold", Self::Hold), Named("zero", Self::Zero)];
+    const NAMES: [NamedValue<Self>; 2] =
+        [NamedValue("hold", Self::Hold), NamedValue("zero", Self::Zero)];
 
     /// The extrapolation called `hold` or `zero`.
     ///
@@ -104,16 +106,16 @@ impl Extrapolation {
     ///
     /// If it is neither.
     pub fn parse(text: &str) -> Result<Self, UnknownName> {
-        Named::find("extrapolation", text, &Self::NAMES)
+        NamedValue::find("extrapolation", text, &Self::NAMES)
     }
 
     /// The name that [`parse`](Self::parse) reads.
     pub fn name(self) -> &'static str {
-        Named::name_of(&Self::NAMES, self)
+        NamedValue::name_of(&Self::NAMES, self)
     }
 }
 
-/// A grid with a way to interpolate on it that is known to be possible.
+/// A grid with an interpolation that is possible on it.
 #[derive(Clone, Debug)]
 pub(crate) struct Resampler<'a> {
     grid: &'a Grid,
@@ -122,7 +124,9 @@ pub(crate) struct Resampler<'a> {
 }
 
 impl<'a> Resampler<'a> {
-    /// Fails if the interpolation is not possible on the grid.
+    /// # Errors
+    ///
+    /// If the interpolation is not possible on the grid.
     pub(crate) fn new(
         grid: &'a Grid,
         interpolation: Interpolation,
@@ -155,9 +159,9 @@ impl<'a> Resampler<'a> {
 
     fn evaluate(&self, sorted: &[f64], at: &[f64]) -> Box<Fine> {
         let nm = self.grid.nm();
-        let mut fine = Box::new([0.0; crate::wavelength::FINE_COUNT]);
+        let mut fine = Box::new([0.0; FINE_COUNT]);
         match self.interpolation {
-            // Every wavelength asked for is a sample; a straight line through it is exact.
+            // Every 1 nm wavelength is a sample; a straight line through it is exact.
             Interpolation::None | Interpolation::Linear => {
                 linear::interpolate(nm, sorted, at, &mut fine[..]);
             }
@@ -167,7 +171,7 @@ impl<'a> Resampler<'a> {
         fine
     }
 
-    /// The columns of the interpolation matrix: what each sample alone contributes to the grid.
+    /// The columns of the interpolation matrix: the contribution of each sample to the grid.
     ///
     /// In ascending order of wavelength.
     pub(crate) fn columns(&self) -> impl Iterator<Item = Box<Fine>> {
@@ -179,15 +183,6 @@ impl<'a> Resampler<'a> {
             column
         })
     }
-}
-
-/// The interval that holds `at`: its lower index, and where in it, from 0 to 1.
-///
-/// `nm` ascends, has at least two elements, and `at` lies within them.
-fn locate(nm: &[f64], at: f64) -> (usize, f64) {
-    let below = nm.partition_point(|&sample| sample <= at);
-    let i = below.saturating_sub(1).min(nm.len() - 2);
-    (i, (at - nm[i]) / (nm[i + 1] - nm[i]))
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use palette::white_point::Any;
 
 use crate::xyz::Xyz;
 
-/// CIE 1976 L\*a\*b\*; the white it is relative to is known to whoever made it.
+/// CIE 1976 L\*a\*b\*; the white is not part of the value.
 pub type Lab = palette::Lab<Any, f64>;
 
 const DELTA: f64 = 6.0 / 29.0;

@@ -35,5 +35,5 @@ pub use plan::{ColourPlan, ColourSettings, PlanError, Quantity};
 pub use rgb::{RgbSpace, SpaceError};
 pub use spectrum::{Spectrum, SpectrumError};
 pub use wavelength::{Grid, GridError};
-pub use weights::Weights;
+pub use weights::XyzWeights;
 pub use xyz::Xyz;

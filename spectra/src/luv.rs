@@ -8,7 +8,7 @@ use palette::white_point::Any;
 
 use crate::{lab::lightness, xyz::Xyz};
 
-/// CIE 1976 L\*u\*v\*; the white it is relative to is known to whoever made it.
+/// CIE 1976 L\*u\*v\*; the white is not part of the value.
 pub type Luv = palette::Luv<Any, f64>;
 
 /// L\*u\*v\* of XYZ relative to a white. Black has u\* = v\* = 0.

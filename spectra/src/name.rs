@@ -1,20 +1,20 @@
-//! Finding things by name, and saying what would have been accepted.
+//! Lookup by name; an unknown name is answered with the accepted names.
 
 use std::fmt::Write as _;
 
 use thiserror::Error;
 
-/// A name that stands for nothing here.
+/// An unknown name.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("unknown {what} `{text}`{}", self.help())]
 pub struct UnknownName {
-    /// What was to be named: `illuminant`, `observer`, …
+    /// The kind of name: `illuminant`, `observer`, …
     pub what: &'static str,
     /// The text as given.
     pub text: String,
     /// The accepted names similar to the text, best first; often empty.
     pub similar: Vec<String>,
-    /// Everything that is accepted: names, and forms such as `D(kelvin)`.
+    /// All accepted names, and forms such as `D(kelvin)`.
     pub accepted: Vec<String>,
 }
 
@@ -53,7 +53,7 @@ pub(crate) fn similar<'a>(text: &str, candidates: impl Iterator<Item = &'a str>)
     scored.into_iter().take(3).map(|(_, name)| name.to_owned()).collect()
 }
 
-/// Lower case, without blanks, `-` and `_`: what names are compared by.
+/// Lower case without blanks, `-` and `_`, for the comparison of names.
 pub(crate) fn fold(text: &str) -> String {
     text.chars()
         .filter(|c| !(c.is_whitespace() || matches!(c, '-' | '_')))
@@ -79,9 +79,9 @@ pub(crate) fn numbers(text: &str) -> Option<Vec<f64>> {
 
 /// One value of a closed list, with its name.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Named<T>(pub(crate) &'static str, pub(crate) T);
+pub(crate) struct NamedValue<T>(pub(crate) &'static str, pub(crate) T);
 
-impl<T: Copy + PartialEq> Named<T> {
+impl<T: Copy + PartialEq> NamedValue<T> {
     /// The value called `text`, ignoring case, blanks, `-` and `_`.
     pub(crate) fn find(what: &'static str, text: &str, list: &[Self]) -> Result<T, UnknownName> {
         let folded = fold(text);
@@ -106,9 +106,9 @@ mod tests {
 
     #[test]
     fn a_misspelt_name_is_answered_with_the_similar_ones() {
-        let list = [Named("Bradford", 1), Named("CAT02", 2), Named("CAT16", 3)];
-        assert_eq!(Named::find("adaptation", "cat_02", &list), Ok(2));
-        let unknown = Named::find("adaptation", "Bradfrod", &list).unwrap_err();
+        let list = [NamedValue("Bradford", 1), NamedValue("CAT02", 2), NamedValue("CAT16", 3)];
+        assert_eq!(NamedValue::find("adaptation", "cat_02", &list), Ok(2));
+        let unknown = NamedValue::find("adaptation", "Bradfrod", &list).unwrap_err();
         assert_eq!(unknown.similar, ["Bradford"]);
         assert_eq!(
             unknown.to_string(),

@@ -2,20 +2,20 @@
 //!
 //! | observer | field | use |
 //! | --- | --- | --- |
-//! | CIE 1931 | 2° | what the RGB spaces are defined for; the default |
+//! | CIE 1931 | 2° | the definition of the RGB spaces; the default |
 //! | CIE 1964 | 10° | surfaces that fill the view; colour difference in industry |
 //! | CIE 2015 | 2°, 10° | from cone fundamentals, 390–830 nm; corrects the blue end of 1931 |
 //!
-//! All but the first with an RGB space is common practice that no standard defines: always adapt,
-//! and write down the observer.
+//! No standard defines RGB spaces for observers other than the first. With them always adapt, and
+//! record the observer.
 //!
 //! ISO/CIE 11664-1:2019; CIE 170-2:2015.
 
 use std::sync::LazyLock;
 
 use crate::{
-    data::{self, Table},
-    name::{Named, UnknownName},
+    data::{self, CieTable},
+    name::{NamedValue, UnknownName},
     wavelength::FINE_COUNT,
 };
 
@@ -41,11 +41,11 @@ impl Observer {
     pub const ALL: [Self; 4] =
         [Self::Cie1931_2, Self::Cie1964_10, Self::Cie2015_2, Self::Cie2015_10];
 
-    const NAMES: [Named<Self>; 4] = [
-        Named("CIE1931_2", Self::Cie1931_2),
-        Named("CIE1964_10", Self::Cie1964_10),
-        Named("CIE2015_2", Self::Cie2015_2),
-        Named("CIE2015_10", Self::Cie2015_10),
+    const NAMES: [NamedValue<Self>; 4] = [
+        NamedValue("CIE1931_2", Self::Cie1931_2),
+        NamedValue("CIE1964_10", Self::Cie1964_10),
+        NamedValue("CIE2015_2", Self::Cie2015_2),
+        NamedValue("CIE2015_10", Self::Cie2015_10),
     ];
 
     /// The observer called `CIE1931_2`, `CIE1964_10`, `CIE2015_2` or `CIE2015_10`.
@@ -54,12 +54,12 @@ impl Observer {
     ///
     /// If it is none of these.
     pub fn parse(text: &str) -> Result<Self, UnknownName> {
-        Named::find("observer", text, &Self::NAMES)
+        NamedValue::find("observer", text, &Self::NAMES)
     }
 
     /// The name that [`parse`](Self::parse) reads.
     pub fn name(self) -> &'static str {
-        Named::name_of(&Self::NAMES, self)
+        NamedValue::name_of(&Self::NAMES, self)
     }
 
     /// The functions x̄, ȳ, z̄ on the 1 nm grid; zero where the CIE gives none.
@@ -76,7 +76,7 @@ impl Observer {
     }
 }
 
-fn fine(table: &Table) -> Box<FineXyz> {
+fn fine(table: &CieTable) -> Box<FineXyz> {
     let [x, y, z] = [0, 1, 2].map(|column| table.fine(column));
     let mut functions = Box::new([[0.0; 3]; FINE_COUNT]);
     for (i, function) in functions.iter_mut().enumerate() {

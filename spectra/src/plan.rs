@@ -11,14 +11,14 @@ use crate::{
     filter::{Filter, stack_mueller},
     interpolate::{Extrapolation, Resampler},
     matrix::{Matrix3, apply, multiply},
-    name::{Named, UnknownName},
+    name::{NamedValue, UnknownName},
     rgb::RgbSpace,
     wavelength::{FINE_COUNT, Fine, Grid, fine_wavelengths},
-    weights::{Sensitivity, Weights},
+    weights::{SpectralSensitivity, XyzWeights},
     xyz::{Xyz, to_array},
 };
 
-/// What the values of a spectrum are.
+/// The quantity of a spectrum.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Quantity {
     /// BRDF in 1/sr: a perfect diffuser has Y = 1/π.
@@ -33,11 +33,11 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    const NAMES: [Named<Self>; 4] = [
-        Named("brdf", Self::Brdf),
-        Named("factor", Self::Factor),
-        Named("reflectance", Self::Reflectance),
-        Named("radiance", Self::Radiance),
+    const NAMES: [NamedValue<Self>; 4] = [
+        NamedValue("brdf", Self::Brdf),
+        NamedValue("factor", Self::Factor),
+        NamedValue("reflectance", Self::Reflectance),
+        NamedValue("radiance", Self::Radiance),
     ];
 
     /// The quantity called `brdf`, `factor`, `reflectance` or `radiance`.
@@ -46,12 +46,12 @@ impl Quantity {
     ///
     /// If it is none of these.
     pub fn parse(text: &str) -> Result<Self, UnknownName> {
-        Named::find("quantity", text, &Self::NAMES)
+        NamedValue::find("quantity", text, &Self::NAMES)
     }
 
     /// The name that [`parse`](Self::parse) reads.
     pub fn name(self) -> &'static str {
-        Named::name_of(&Self::NAMES, self)
+        NamedValue::name_of(&Self::NAMES, self)
     }
 
     /// The unit of XYZ and RGB: `1/sr`, `1` or `cd/m2`.
@@ -64,10 +64,10 @@ impl Quantity {
     }
 }
 
-/// What a colour is computed with.
+/// The settings of a colour computation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourSettings {
-    /// What the values are.
+    /// The quantity of the values.
     pub quantity: Quantity,
     /// The light; ignored for [`Quantity::Radiance`].
     pub illuminant: Illuminant,
@@ -75,16 +75,16 @@ pub struct ColourSettings {
     pub observer: Observer,
     /// The RGB space.
     pub space: RgbSpace,
-    /// The adaptation from the white of the light to that of the space; for
-    /// [`Quantity::Radiance`], which has no white, none is done.
+    /// The adaptation from the white of the light to that of the space; not used for
+    /// [`Quantity::Radiance`], which has no white.
     pub adaptation: Adaptation,
     /// Filters before the eye, in the order in which light meets them.
     pub filters: Vec<Filter>,
-    /// What the spectra are outside their samples.
+    /// The values of the spectra outside their samples.
     pub outside: Extrapolation,
 }
 
-/// Why a colour computation cannot be prepared.
+/// Errors of preparing a colour computation.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum PlanError {
     /// The adaptation does not apply to the white of the light or of the space.
@@ -97,9 +97,9 @@ pub enum PlanError {
 pub struct ColourPlan {
     settings: ColourSettings,
     samples: usize,
-    /// `weights[out][in]`: what component `in` before the filters gives to `out` behind them;
-    /// `None` where that is zero at every wavelength.
-    weights: [[Option<Weights>; 4]; 4],
+    /// `weights[out][in]`: the contribution of component `in` before the filters to `out` behind them;
+    /// `None` where it is zero at every wavelength.
+    weights: [[Option<XyzWeights>; 4]; 4],
     white: Option<Xyz>,
     to_rgb: Matrix3,
 }
@@ -114,9 +114,9 @@ impl ColourPlan {
         let absolute = settings.quantity == Quantity::Radiance;
         let white = (!absolute).then(|| settings.illuminant.white(settings.observer));
         let sensitivity = if absolute {
-            Sensitivity::absolute(settings.observer)
+            SpectralSensitivity::absolute(settings.observer)
         } else {
-            Sensitivity::relative(&settings.illuminant, settings.observer)
+            SpectralSensitivity::relative(&settings.illuminant, settings.observer)
         };
         let to_rgb = match white {
             Some(white) => rgb_matrix(&settings.space, settings.adaptation, white)?,
@@ -127,7 +127,7 @@ impl ColourPlan {
         Ok(Self { settings, samples: grid.len(), weights, white, to_rgb })
     }
 
-    /// What the plan was made with.
+    /// The settings of the plan.
     pub fn settings(&self) -> &ColourSettings {
         &self.settings
     }
@@ -191,10 +191,10 @@ fn filter_weights(
     grid: &Grid,
     resampler: &Resampler<'_>,
     filters: &[Filter],
-    sensitivity: &Sensitivity,
-) -> [[Option<Weights>; 4]; 4] {
+    sensitivity: &SpectralSensitivity,
+) -> [[Option<XyzWeights>; 4]; 4] {
     if filters.is_empty() {
-        let direct = Weights::fold(grid, resampler, sensitivity);
+        let direct = XyzWeights::fold(grid, resampler, sensitivity);
         return [0, 1, 2, 3]
             .map(|out| [0, 1, 2, 3].map(|input| (out == input).then(|| direct.clone())));
     }
@@ -208,7 +208,7 @@ fn filter_weights(
             passed
         });
         let behind = passed.each_ref().map(|passed| sensitivity.behind(passed));
-        let mut folded = Weights::fold_each(grid, resampler, behind.each_ref()).map(Some);
+        let mut folded = XyzWeights::fold_each(grid, resampler, behind.each_ref()).map(Some);
         for (weights, passed) in folded.iter_mut().zip(&passed) {
             if passed.iter().all(|element| *element == 0.0) {
                 *weights = None;

@@ -26,10 +26,10 @@ use crate::{
     xyz::{Xyz, from_array, from_chromaticity, to_array},
 };
 
-/// How far outside 0 to 1 a channel still counts as in gamut: the rounding of the whole path.
+/// Tolerance of the gamut limits 0 and 1, for rounding.
 pub const GAMUT_TOLERANCE: f64 = 1e-9;
 
-/// Why an RGB space cannot be made.
+/// Errors of making an RGB space.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SpaceError {
     /// Neither a name nor a list of numbers.
@@ -40,13 +40,13 @@ pub enum SpaceError {
         "an rgb space takes 8 numbers (x, y of red, green, blue, white) or 9 (XYZ to RGB), got {got}"
     )]
     Count {
-        /// How many there were.
+        /// The number of numbers.
         got: usize,
     },
     /// Primaries on a line, a white outside their triangle, a singular matrix.
     #[error("the {what} do not span an rgb space")]
     Degenerate {
-        /// What is at fault.
+        /// The invalid part.
         what: &'static str,
     },
 }
@@ -62,33 +62,33 @@ pub struct RgbSpace {
 }
 
 /// Name, primaries, white and curve of a standard space.
-type Standard = (&'static str, [[f64; 2]; 3], [f64; 2], Curve);
+type StandardSpace = (&'static str, [[f64; 2]; 3], [f64; 2], Curve);
 
 const D65: [f64; 2] = [0.3127, 0.3290];
 const ACES: [f64; 2] = [0.32168, 0.33767];
 
-const SRGB: Standard = ("sRGB", [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]], D65, Curve::Srgb);
-const ADOBE: Standard =
+const SRGB: StandardSpace = ("sRGB", [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]], D65, Curve::Srgb);
+const ADOBE: StandardSpace =
     ("AdobeRGB1998", [[0.64, 0.33], [0.21, 0.71], [0.15, 0.06]], D65, Curve::Gamma(563.0 / 256.0));
-const DISPLAY_P3: Standard =
+const DISPLAY_P3: StandardSpace =
     ("DisplayP3", [[0.680, 0.320], [0.265, 0.690], [0.150, 0.060]], D65, Curve::Srgb);
-const DCI_P3: Standard =
+const DCI_P3: StandardSpace =
     ("DCI-P3", [[0.680, 0.320], [0.265, 0.690], [0.150, 0.060]], [0.314, 0.351], Curve::Gamma(2.6));
-const REC2020: Standard =
+const REC2020: StandardSpace =
     ("Rec2020", [[0.708, 0.292], [0.170, 0.797], [0.131, 0.046]], D65, Curve::Rec2020);
-const PROPHOTO: Standard = (
+const PROPHOTO: StandardSpace = (
     "ProPhotoRGB",
     [[0.7347, 0.2653], [0.1596, 0.8404], [0.0366, 0.0001]],
     [0.3457, 0.3585],
     Curve::ProPhoto,
 );
-const ACESCG: Standard =
+const ACESCG: StandardSpace =
     ("ACEScg", [[0.713, 0.293], [0.165, 0.830], [0.128, 0.044]], ACES, Curve::Linear);
-const ACES2065_1: Standard =
+const ACES2065_1: StandardSpace =
     ("ACES2065-1", [[0.7347, 0.2653], [0.0, 1.0], [0.0001, -0.0770]], ACES, Curve::Linear);
 
 /// The standard spaces, in the order in which users see them.
-const STANDARD: [&Standard; 8] =
+const STANDARD: [&StandardSpace; 8] =
     [&SRGB, &ADOBE, &DISPLAY_P3, &DCI_P3, &REC2020, &PROPHOTO, &ACESCG, &ACES2065_1];
 
 /// Other names of standard spaces. Rec. 709 has the primaries and the white of sRGB; a table of
@@ -125,8 +125,8 @@ impl RgbSpace {
     pub fn named(name: &str) -> Result<Self, UnknownName> {
         let folded = fold(name);
         let alias = ALIASES.iter().find(|(alias, _)| *alias == folded);
-        let wanted = alias.map_or(folded, |(_, name)| fold(name));
-        match STANDARD.iter().find(|standard| fold(standard.0) == wanted) {
+        let canonical = alias.map_or(folded, |(_, name)| fold(name));
+        match STANDARD.iter().find(|standard| fold(standard.0) == canonical) {
             Some(standard) => Ok(Self::standard(standard)),
             None => {
                 let forms = ["primaries(rx,ry,gx,gy,bx,by,wx,wy)", "matrix(m11,…,m33)"];
@@ -207,7 +207,7 @@ impl RgbSpace {
         Ok(Self { name: name.to_owned(), to_xyz, from_xyz, white, curve })
     }
 
-    fn standard(&(name, primaries, white, curve): &Standard) -> Self {
+    fn standard(&(name, primaries, white, curve): &StandardSpace) -> Self {
         match Self::from_primaries(name, primaries, white, curve) {
             Ok(space) => space,
             Err(_) => unreachable!("a test makes every standard space"),
@@ -261,12 +261,12 @@ impl RgbSpace {
 
     /// Bytes of linear RGB clipped to 0…1: ⌊255 v + ½⌋ of the encoded value.
     pub fn encode_u8(&self, linear: [f64; 3]) -> [u8; 3] {
-        // In range by the clipping; the cast cuts off the fraction.
+        // The value is clipped to the range of u8; the cast truncates.
         self.encode_clipped(linear).map(|v| (255.0 * v + 0.5) as u8)
     }
 }
 
-/// Whether linear RGB lies in 0…1, give or take [`GAMUT_TOLERANCE`].
+/// True if linear RGB lies in 0…1 within [`GAMUT_TOLERANCE`].
 pub fn in_gamut(linear: [f64; 3]) -> bool {
     linear.iter().all(|v| (-GAMUT_TOLERANCE..=1.0 + GAMUT_TOLERANCE).contains(v))
 }

@@ -9,7 +9,7 @@ use crate::{
     xyz::{self, Xyz},
 };
 
-/// Why a text is not a spectrum.
+/// Errors of reading a spectrum.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SpectrumError {
     /// A line that does not hold two numbers.
@@ -41,7 +41,7 @@ pub struct Spectrum {
     values: Vec<f64>,
 }
 
-/// The unit of the wavelengths in a file, told by their size.
+/// The unit of the wavelengths in a file, recognized by their size.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum WavelengthUnit {
     /// Micrometres: the largest number is below 30.
@@ -158,7 +158,7 @@ impl Spectrum {
     ///
     /// # Errors
     ///
-    /// If nobody sees it.
+    /// If the light has no luminance.
     pub fn illuminant(&self, name: &str) -> Result<Illuminant, IlluminantError> {
         Illuminant::from_samples(name, &self.grid, &self.values)
     }

@@ -16,15 +16,15 @@ pub fn fine_wavelengths() -> impl DoubleEndedIterator<Item = f64> + ExactSizeIte
     (0..FINE_COUNT).map(|i| FINE_FIRST_NM + i as f64)
 }
 
-/// Why a list of wavelengths, or values on it, cannot be used.
+/// Errors of a list of wavelengths or of the values on it.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum GridError {
     /// Fewer wavelengths than the interpolation needs.
     #[error("{got} wavelengths, at least {needed} are needed")]
     TooFew {
-        /// How many there are.
+        /// The number of wavelengths.
         got: usize,
-        /// How many it takes.
+        /// The required number.
         needed: usize,
     },
     /// A wavelength that is not a finite number above zero.
@@ -66,7 +66,7 @@ pub enum GridError {
 /// The wavelengths of a spectrum: finite, positive, distinct, at least two.
 ///
 /// They may be given in any order. The grid keeps them ascending and remembers the order, so that
-/// values can be handed over as they come.
+/// values are accepted in the given order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     nm: Vec<f64>,
@@ -104,7 +104,7 @@ impl Grid {
     }
 
     /// Number of wavelengths, at least two.
-    #[allow(clippy::len_without_is_empty)] // It is never empty.
+    #[allow(clippy::len_without_is_empty, reason = "a grid is never empty")]
     pub fn len(&self) -> usize {
         self.nm.len()
     }
@@ -116,7 +116,7 @@ impl Grid {
         self.nm.windows(2).all(equal).then_some(step)
     }
 
-    /// Whether the wavelengths are whole nanometres, 1 nm apart.
+    /// True if the wavelengths are whole nanometres, 1 nm apart.
     pub fn is_one_nanometre(&self) -> bool {
         self.nm[0].fract() == 0.0 && self.nm.windows(2).all(|pair| pair[1] - pair[0] == 1.0)
     }
@@ -157,8 +157,8 @@ impl Grid {
 
 /// Nanometres from a wavelength in micrometres, rounded to 1e-6 nm.
 ///
-/// The rounding removes what the arithmetic of a program leaves behind (0.55·1000 = 550.0000…1), so
-/// that equal steps are recognized as equal.
+/// The rounding removes errors of arithmetic (0.55·1000 = 550.0000…1), so that equal steps are
+/// recognized as equal.
 pub fn nm_from_um(um: f64) -> f64 {
     (um * 1e9).round() / 1e6
 }
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_not_a_list_of_wavelengths() {
+    fn invalid_wavelengths_are_refused() {
         assert_eq!(Grid::new(&[500.0]), Err(GridError::TooFew { got: 1, needed: 2 }));
         assert_eq!(Grid::new(&[]), Err(GridError::TooFew { got: 0, needed: 2 }));
         assert_eq!(Grid::new(&[500.0, 400.0, 500.0]), Err(GridError::Duplicate { nm: 500.0 }));

@@ -2,7 +2,7 @@
 //!
 //! Interpolation to 1 nm and the sum are linear in the samples R, so XYZ = Wᵀ R with
 //! W = Aᵀ diag(S) C / Σ S ȳ, where A interpolates, S is the light and C the observer. W depends on
-//! the wavelengths, the illuminant and the observer only: make it once per job.
+//! the wavelengths, the illuminant and the observer only: compute it once per job.
 
 use crate::{
     Illuminant, Observer,
@@ -14,12 +14,12 @@ use crate::{
 
 /// Weights of the samples of a spectrum in its XYZ.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Weights {
+pub struct XyzWeights {
     /// In the order in which the wavelengths were given.
     rows: Vec<[f64; 3]>,
 }
 
-impl Weights {
+impl XyzWeights {
     /// Weights for reflectances under an illuminant: a perfect diffuser has Y = 1.
     ///
     /// Interpolated by what [`Interpolation::for_grid`](crate::Interpolation::for_grid) chooses.
@@ -30,17 +30,17 @@ impl Weights {
         outside: Extrapolation,
     ) -> Self {
         let resampler = Resampler::for_grid(grid, outside);
-        Self::fold(grid, &resampler, &Sensitivity::relative(illuminant, observer))
+        Self::fold(grid, &resampler, &SpectralSensitivity::relative(illuminant, observer))
     }
 
     /// Weights for spectral radiances in W/(m² sr nm): Y in cd/m².
     pub fn absolute(grid: &Grid, observer: Observer, outside: Extrapolation) -> Self {
         let resampler = Resampler::for_grid(grid, outside);
-        Self::fold(grid, &resampler, &Sensitivity::absolute(observer))
+        Self::fold(grid, &resampler, &SpectralSensitivity::absolute(observer))
     }
 
     /// Folds an interpolation and a sensitivity into weights.
-    pub(crate) fn fold(grid: &Grid, resampler: &Resampler<'_>, to: &Sensitivity) -> Self {
+    pub(crate) fn fold(grid: &Grid, resampler: &Resampler<'_>, to: &SpectralSensitivity) -> Self {
         let [weights] = Self::fold_each(grid, resampler, [to]);
         weights
     }
@@ -49,7 +49,7 @@ impl Weights {
     pub(crate) fn fold_each<const N: usize>(
         grid: &Grid,
         resampler: &Resampler<'_>,
-        to: [&Sensitivity; N],
+        to: [&SpectralSensitivity; N],
     ) -> [Self; N] {
         let mut each = to.map(|_| Self { rows: vec![[0.0; 3]; grid.len()] });
         for (k, column) in resampler.columns().enumerate() {
@@ -61,7 +61,7 @@ impl Weights {
     }
 
     /// Weights on every other wavelength of `grid`, as weights on all of them.
-    pub(crate) fn spread_to_every_other(&self, grid: &Grid) -> Self {
+    pub(crate) fn on_full_grid(&self, grid: &Grid) -> Self {
         let mut rows = vec![[0.0; 3]; grid.len()];
         for (k, row) in self.rows.iter().enumerate() {
             rows[grid.given_position(2 * k)] = *row;
@@ -91,11 +91,11 @@ impl Weights {
     }
 }
 
-/// What one nanometre contributes to X, Y and Z, on the 1 nm grid.
+/// The contribution of one nanometre to X, Y and Z, on the 1 nm grid.
 #[derive(Clone, Debug)]
-pub(crate) struct Sensitivity(Box<FineXyz>);
+pub(crate) struct SpectralSensitivity(Box<FineXyz>);
 
-impl Sensitivity {
+impl SpectralSensitivity {
     /// S c̄ / Σ S ȳ.
     pub(crate) fn relative(illuminant: &Illuminant, observer: Observer) -> Self {
         let luminance = illuminant.luminance(observer);
@@ -175,7 +175,7 @@ mod tests {
 
             let fine = Resampler::for_grid(&grid, outside).fine(&grid.sort(values).unwrap());
             let direct = xyz::reflected(&fine, &light, Observer::Cie1931_2);
-            let weighted = Weights::new(&grid, &light, Observer::Cie1931_2, outside).xyz(values);
+            let weighted = XyzWeights::new(&grid, &light, Observer::Cie1931_2, outside).xyz(values);
 
             for (a, b) in xyz::to_array(direct).into_iter().zip(xyz::to_array(weighted)) {
                 // Rounding of 471 additions of terms of both signs; overshoot makes them larger.
@@ -191,7 +191,7 @@ mod tests {
         let radiance: Vec<f64> = nm.iter().map(|nm| 1e-3 * (nm / 50.0).cos()).collect();
         let fine = Resampler::for_grid(&grid, Extrapolation::Zero).fine(&radiance);
         let direct = xyz::emitted(&fine, Observer::Cie1964_10);
-        let weights = Weights::absolute(&grid, Observer::Cie1964_10, Extrapolation::Zero);
+        let weights = XyzWeights::absolute(&grid, Observer::Cie1964_10, Extrapolation::Zero);
         let weighted = weights.xyz(&radiance);
         // 471 additions of terms up to 1.
         assert!((direct.y - weighted.y).abs() < 1e-12, "{} {}", direct.y, weighted.y);

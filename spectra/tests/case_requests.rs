@@ -1,4 +1,4 @@
-//! What a colour case may be and what it is refused for.
+//! Colour cases: accepted forms and refusals.
 
 use proptest::prelude::*;
 use serde_json::{Value, json};

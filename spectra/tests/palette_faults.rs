@@ -1,4 +1,4 @@
-//! Where palette 0.7.7 is measurably wrong, and ours is used in its place.
+//! Errors of palette 0.7.7 that our own formulas avoid.
 //!
 //! If one of these tests fails after an update of palette, a fault was mended there.
 

@@ -13,7 +13,7 @@ use mist_engine::{
 };
 use rise_bridge::{
     export::{Bands, ExportError},
-    goniometer::{self, GoniometerForm, HalfAngleAxes},
+    goniometer::{self, GoniometerAxes, GoniometerForm},
     klems,
     mitsuba::{
         axes,
@@ -177,7 +177,7 @@ fn directions(
     let axis = |part: &str, given: &Option<String>, usual: &str| {
         query::nodes(part, given.as_deref().unwrap_or(usual))
     };
-    let axes = HalfAngleAxes {
+    let axes = GoniometerAxes {
         thetai: axis("thetai", &asked.thetai, "0:10:80")?,
         thetas: axis("thetas", &asked.thetas, "0:5:85")?,
         phis: axis("phis", &asked.phis, "0:10:180")?,

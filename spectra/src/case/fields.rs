@@ -1,28 +1,30 @@
-//! Reading the fields of a JSON object, with errors that name the case and the field.
+//! Reads the fields of a JSON object; errors name the case and the field.
 
 use std::fmt::Display;
 
 use serde_json::{Map, Value};
 
-use super::CaseError;
+use super::error::CaseError;
 use crate::name::similar;
 
-/// An object of a request, and where it is.
+/// An object of a request, with its path.
 #[derive(Clone, Copy)]
-pub(super) struct Fields<'a> {
+pub(super) struct CaseFields<'a> {
     case: &'a str,
     path: &'a str,
     object: &'a Map<String, Value>,
 }
 
-impl<'a> Fields<'a> {
+impl<'a> CaseFields<'a> {
     /// The fields of `value`, which is `path` (empty: the case itself) of a case.
     pub(super) fn new(case: &'a str, path: &'a str, value: &'a Value) -> Result<Self, CaseError> {
         match value.as_object() {
             Some(object) => Ok(Self { case, path, object }),
-            None => {
-                Err(CaseError::new(case, path, format!("expected an object, got {}", kind(value))))
-            }
+            None => Err(CaseError::new(
+                case,
+                path,
+                format!("expected an object, got {}", json_type(value)),
+            )),
         }
     }
 
@@ -40,7 +42,7 @@ impl<'a> Fields<'a> {
         if self.path.is_empty() { name.to_owned() } else { format!("{}.{name}", self.path) }
     }
 
-    /// Refuses a field that is nearly one of `known`, but not it. Others are allowed: notes.
+    /// Refuses fields that resemble one of `known`. Other fields are notes.
     pub(super) fn refuse_misspelt(&self, known: &[&str]) -> Result<(), CaseError> {
         for name in self.object.keys().filter(|name| !known.contains(&name.as_str())) {
             let absent = known.iter().copied().filter(|known| !self.object.contains_key(*known));
@@ -56,7 +58,7 @@ impl<'a> Fields<'a> {
         self.object.get(name).filter(|value| !value.is_null())
     }
 
-    /// Whether the field is there, be it null.
+    /// True if the field exists, even as null.
     pub(super) fn has(&self, name: &str) -> bool {
         self.object.contains_key(name)
     }
@@ -77,7 +79,7 @@ impl<'a> Fields<'a> {
         let as_text = |value: &'a Value| {
             value
                 .as_str()
-                .ok_or_else(|| self.error(name, format!("expected text, got {}", kind(value))))
+                .ok_or_else(|| self.error(name, format!("expected text, got {}", json_type(value))))
         };
         self.get(name).map(as_text).transpose()
     }
@@ -85,7 +87,7 @@ impl<'a> Fields<'a> {
     pub(super) fn list(&self, name: &str) -> Result<Option<&'a [Value]>, CaseError> {
         let as_list = |value: &'a Value| match value.as_array() {
             Some(list) => Ok(list.as_slice()),
-            None => Err(self.error(name, format!("expected a list, got {}", kind(value)))),
+            None => Err(self.error(name, format!("expected a list, got {}", json_type(value)))),
         };
         self.get(name).map(as_list).transpose()
     }
@@ -98,7 +100,7 @@ impl<'a> Fields<'a> {
     pub(super) fn as_numbers(&self, name: &str, value: &Value) -> Result<Vec<f64>, CaseError> {
         let Some(list) = value.as_array() else {
             return Err(
-                self.error(name, format!("expected a list of numbers, got {}", kind(value)))
+                self.error(name, format!("expected a list of numbers, got {}", json_type(value)))
             );
         };
         let numbers = list.iter().enumerate();
@@ -108,17 +110,19 @@ impl<'a> Fields<'a> {
     fn as_number(&self, name: &str, value: &Value) -> Result<f64, CaseError> {
         match value.as_f64().filter(|number| number.is_finite()) {
             Some(number) => Ok(number),
-            None => Err(self.error(name, format!("expected a finite number, got {}", kind(value)))),
+            None => {
+                Err(self.error(name, format!("expected a finite number, got {}", json_type(value))))
+            }
         }
     }
 }
 
-/// Whether two field names differ by a slip of the finger: at most two letters.
+/// True if two field names differ by at most two letters.
 fn close(name: &str, meant: &str) -> bool {
     strsim::damerau_levenshtein(name, meant) <= 2
 }
 
-fn kind(value: &Value) -> &'static str {
+fn json_type(value: &Value) -> &'static str {
     match value {
         Value::Null => "null",
         Value::Bool(_) => "a truth value",

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::{CaseError, fields::Fields};
+use super::{error::CaseError, fields::CaseFields};
 use crate::{Extrapolation, Illuminant, Interpolation, wavelength::Grid};
 
 /// The illuminants that come with a request, by name.
 pub(super) fn read_illuminants(
-    request: Fields<'_>,
+    request: CaseFields<'_>,
 ) -> Result<BTreeMap<String, Illuminant>, CaseError> {
     let Some(value) = request.get("illuminants") else { return Ok(BTreeMap::new()) };
     let Some(table) = value.as_object() else {
@@ -19,15 +19,15 @@ pub(super) fn read_illuminants(
         .iter()
         .map(|(name, value)| {
             let path = format!("illuminants.{name}");
-            let fields = Fields::new(request.case(), &path, value)?;
+            let fields = CaseFields::new(request.case(), &path, value)?;
             Ok((name.clone(), read_light(name, fields)?))
         })
         .collect()
 }
 
-/// A light as {wavelengths, values, interpolation, extrapolation} or {start_nm, end_nm, step_nm,
+/// A light from {wavelengths, values, interpolation, extrapolation} or {start_nm, end_nm, step_nm,
 /// values}.
-fn read_light(name: &str, fields: Fields<'_>) -> Result<Illuminant, CaseError> {
+fn read_light(name: &str, fields: CaseFields<'_>) -> Result<Illuminant, CaseError> {
     let values = fields.required_numbers("values")?;
     let grid = if fields.has("wavelengths") {
         let wavelengths = fields.required_numbers("wavelengths")?;
@@ -40,7 +40,7 @@ fn read_light(name: &str, fields: Fields<'_>) -> Result<Illuminant, CaseError> {
         let end = fields.number("end_nm")?.unwrap_or(nm[nm.len() - 1]);
         if (end - nm[nm.len() - 1]).abs() > 1e-6 * step.abs() {
             let found =
-                format!("{} values from {start} nm by {step} nm do not end there", nm.len());
+                format!("{} values from {start} nm by {step} nm do not end at end_nm", nm.len());
             return Err(fields.error("end_nm", found));
         }
         grid
@@ -59,12 +59,12 @@ fn read_light(name: &str, fields: Fields<'_>) -> Result<Illuminant, CaseError> {
 
 /// The illuminant of a case; `None` for emission.
 pub(super) fn read_illuminant(
-    fields: Fields<'_>,
+    fields: CaseFields<'_>,
     illuminants: &BTreeMap<String, Illuminant>,
 ) -> Result<Option<Illuminant>, CaseError> {
     let custom = || -> Result<_, CaseError> {
         let path = fields.path_to("custom_illuminant");
-        let light = Fields::new(fields.case(), &path, fields.required("custom_illuminant")?)?;
+        let light = CaseFields::new(fields.case(), &path, fields.required("custom_illuminant")?)?;
         read_light("custom", light)
     };
     match fields.get("illuminant") {

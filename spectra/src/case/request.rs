@@ -1,18 +1,18 @@
-//! A case as it is asked: JSON → spectra, light, observer, method, filters and wanted RGB.
+//! A case of a request: spectra, light, observer, method, filters and RGB spaces from JSON.
 
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use super::{CaseError, fields::Fields, light::read_illuminant};
+use super::{error::CaseError, fields::CaseFields, light::read_illuminant};
 use crate::{
     Adaptation, Extrapolation, Filter, Illuminant, Interpolation, Observer, RgbSpace, Spectrum,
-    name::Named, wavelength::Grid,
+    name::NamedValue, wavelength::Grid,
 };
 
-/// How XYZ are computed.
+/// The method of computing XYZ.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(super) enum Method {
+pub(super) enum ColourMethod {
     /// Σ R S c̄ / Σ S ȳ at 1 nm.
     Sum,
     /// 683 Σ L c̄ at 1 nm.
@@ -23,33 +23,33 @@ pub(super) enum Method {
     Astm,
 }
 
-const METHODS: [Named<Method>; 4] = [
-    Named("sum_1nm", Method::Sum),
-    Named("absolute_683", Method::Absolute),
-    Named("relative_Y1", Method::Relative),
-    Named("astm_e308", Method::Astm),
+const METHODS: [NamedValue<ColourMethod>; 4] = [
+    NamedValue("sum_1nm", ColourMethod::Sum),
+    NamedValue("absolute_683", ColourMethod::Absolute),
+    NamedValue("relative_Y1", ColourMethod::Relative),
+    NamedValue("astm_e308", ColourMethod::Astm),
 ];
 
 /// The spectra of a case, with `value_factor` applied.
 #[derive(Clone, Debug)]
-pub(super) enum Spectra {
+pub(super) enum CaseSpectra {
     /// Unpolarized light.
     Values(Spectrum),
     /// I, Q, U, V.
     Stokes(Box<[Spectrum; 4]>),
 }
 
-/// A case as it is asked.
+/// A case of a request.
 #[derive(Clone, Debug)]
-pub(super) struct Case {
-    pub(super) spectra: Spectra,
-    /// `None`: what the grid suggests.
+pub(super) struct ColourCase {
+    pub(super) spectra: CaseSpectra,
+    /// `None`: the interpolation that suits the grid.
     pub(super) interpolation: Option<Interpolation>,
     pub(super) extrapolation: Extrapolation,
     /// `None`: emission.
     pub(super) illuminant: Option<Illuminant>,
     pub(super) observer: Observer,
-    pub(super) method: Method,
+    pub(super) method: ColourMethod,
     pub(super) exposure: f64,
     pub(super) filters: Vec<Filter>,
     pub(super) rgb: Vec<(RgbSpace, Adaptation)>,
@@ -78,10 +78,10 @@ const KNOWN: [&str; 20] = [
     "rgb",
 ];
 
-impl Case {
+impl ColourCase {
     /// Reads a case; `illuminants` are those that came with the request.
     pub(super) fn read(
-        fields: Fields<'_>,
+        fields: CaseFields<'_>,
         illuminants: &BTreeMap<String, Illuminant>,
     ) -> Result<Self, CaseError> {
         fields.refuse_misspelt(&KNOWN)?;
@@ -105,7 +105,7 @@ impl Case {
             },
             exposure: fields.number("rgb_exposure")?.unwrap_or(1.0),
             filters: read_filters(fields)?,
-            rgb: read_wanted(fields, illuminant.is_some())?,
+            rgb: read_rgb(fields, illuminant.is_some())?,
             spectra,
             illuminant,
             method,
@@ -113,7 +113,7 @@ impl Case {
     }
 }
 
-fn read_spectra(fields: Fields<'_>) -> Result<Spectra, CaseError> {
+fn read_spectra(fields: CaseFields<'_>) -> Result<CaseSpectra, CaseError> {
     let wavelengths = fields.required_numbers("wavelengths")?;
     Grid::new(&wavelengths).map_err(|e| fields.error("wavelengths", e))?;
     let factor = fields.number("value_factor")?.unwrap_or(1.0);
@@ -123,8 +123,8 @@ fn read_spectra(fields: Fields<'_>) -> Result<Spectra, CaseError> {
     };
     match (fields.get("values"), fields.list("stokes")?) {
         (Some(_), Some(_)) => Err(fields.error("stokes", "given together with values")),
-        (Some(values), None) => Ok(Spectra::Values(spectrum("values", values)?)),
-        (None, Some([i, q, u, v])) => Ok(Spectra::Stokes(Box::new([
+        (Some(values), None) => Ok(CaseSpectra::Values(spectrum("values", values)?)),
+        (None, Some([i, q, u, v])) => Ok(CaseSpectra::Stokes(Box::new([
             spectrum("stokes[0]", i)?,
             spectrum("stokes[1]", q)?,
             spectrum("stokes[2]", u)?,
@@ -138,27 +138,36 @@ fn read_spectra(fields: Fields<'_>) -> Result<Spectra, CaseError> {
     }
 }
 
-fn read_method(fields: Fields<'_>, lit: bool, spectra: &Spectra) -> Result<Method, CaseError> {
+fn read_method(
+    fields: CaseFields<'_>,
+    lit: bool,
+    spectra: &CaseSpectra,
+) -> Result<ColourMethod, CaseError> {
     let method = match fields.text("method")? {
         Some(text) => {
-            Named::find("method", text, &METHODS).map_err(|e| fields.error("method", e))?
+            NamedValue::find("method", text, &METHODS).map_err(|e| fields.error("method", e))?
         }
-        None if lit => Method::Sum,
-        None => Method::Absolute,
+        None if lit => ColourMethod::Sum,
+        None => ColourMethod::Absolute,
     };
     let problem = match method {
-        Method::Sum | Method::Astm if !lit => "needs an illuminant",
-        Method::Absolute | Method::Relative if lit => "is for emission, where illuminant is null",
-        Method::Astm if matches!(spectra, Spectra::Stokes(_)) => "takes values, not stokes",
-        Method::Astm if fields.get("filters").is_some() => "takes no filters",
+        ColourMethod::Sum | ColourMethod::Astm if !lit => "needs an illuminant",
+        ColourMethod::Absolute | ColourMethod::Relative if lit => {
+            "is for emission, where illuminant is null"
+        }
+        ColourMethod::Astm if matches!(spectra, CaseSpectra::Stokes(_)) => {
+            "takes values, not stokes"
+        }
+        ColourMethod::Astm if fields.get("filters").is_some() => "takes no filters",
         _ => return Ok(method),
     };
-    Err(fields.error("method", format!("{} {problem}", Named::name_of(&METHODS, method))))
+    Err(fields.error("method", format!("{} {problem}", NamedValue::name_of(&METHODS, method))))
 }
 
-/// The domain of a method is fixed; a request that states another one expects something else.
-fn check_domain(fields: Fields<'_>, method: Method) -> Result<(), CaseError> {
-    let fixed = if method == Method::Astm { [360.0, 780.0, 1.0] } else { [360.0, 830.0, 1.0] };
+/// Checks the stated domain, which is fixed for every method.
+fn check_domain(fields: CaseFields<'_>, method: ColourMethod) -> Result<(), CaseError> {
+    let fixed =
+        if method == ColourMethod::Astm { [360.0, 780.0, 1.0] } else { [360.0, 830.0, 1.0] };
     match fields.get("domain_nm") {
         Some(value) if fields.as_numbers("domain_nm", value)? != fixed => {
             Err(fields.error("domain_nm", format!("only {fixed:?} is computed")))
@@ -168,11 +177,11 @@ fn check_domain(fields: Fields<'_>, method: Method) -> Result<(), CaseError> {
 }
 
 fn read_interpolation(
-    fields: Fields<'_>,
-    method: Method,
+    fields: CaseFields<'_>,
+    method: ColourMethod,
 ) -> Result<Option<Interpolation>, CaseError> {
     match (fields.text("interpolation")?, method) {
-        (Some("e308") | None, _) if method == Method::Astm => Ok(None),
+        (Some("e308") | None, _) if method == ColourMethod::Astm => Ok(None),
         (Some(text), _) => match Interpolation::parse(text) {
             Ok(interpolation) => Ok(Some(interpolation)),
             Err(unknown) => Err(fields.error("interpolation", unknown)),
@@ -181,7 +190,7 @@ fn read_interpolation(
     }
 }
 
-fn read_filters(fields: Fields<'_>) -> Result<Vec<Filter>, CaseError> {
+fn read_filters(fields: CaseFields<'_>) -> Result<Vec<Filter>, CaseError> {
     let filters = fields.list("filters")?.unwrap_or_default();
     filters
         .iter()
@@ -191,22 +200,22 @@ fn read_filters(fields: Fields<'_>) -> Result<Vec<Filter>, CaseError> {
             if let Some(text) = value.as_str() {
                 return Filter::parse(text).map_err(|e| CaseError::new(fields.case(), &path, e));
             }
-            read_filter(Fields::new(fields.case(), &path, value)?)
+            read_filter(CaseFields::new(fields.case(), &path, value)?)
         })
         .collect()
 }
 
-fn read_filter(fields: Fields<'_>) -> Result<Filter, CaseError> {
+fn read_filter(fields: CaseFields<'_>) -> Result<Filter, CaseError> {
     #[derive(Clone, Copy, PartialEq)]
-    enum Kind {
+    enum FilterKind {
         Linear,
         Retarder,
         Circular,
     }
-    const KINDS: [Named<Kind>; 3] = [
-        Named("linear_polariser", Kind::Linear),
-        Named("linear_retarder", Kind::Retarder),
-        Named("circular_analyser", Kind::Circular),
+    const KINDS: [NamedValue<FilterKind>; 3] = [
+        NamedValue("linear_polariser", FilterKind::Linear),
+        NamedValue("linear_retarder", FilterKind::Retarder),
+        NamedValue("circular_analyser", FilterKind::Circular),
     ];
     fields.refuse_misspelt(&[
         "type",
@@ -218,29 +227,29 @@ fn read_filter(fields: Fields<'_>) -> Result<Filter, CaseError> {
         "handedness",
     ])?;
     let text = fields.text("type")?.ok_or_else(|| fields.error("type", "missing"))?;
-    match Named::find("filter", text, &KINDS).map_err(|e| fields.error("type", e))? {
-        Kind::Linear => {
+    match NamedValue::find("filter", text, &KINDS).map_err(|e| fields.error("type", e))? {
+        FilterKind::Linear => {
             let angle = fields.required_number("angle_deg")?.to_radians();
             let k1 = fields.number("k1")?.unwrap_or(1.0);
             Filter::linear(angle, k1, fields.number("k2")?.unwrap_or(0.0))
         }
-        Kind::Retarder => Filter::retarder(
+        FilterKind::Retarder => Filter::retarder(
             fields.required_number("fast_axis_deg")?.to_radians(),
             fields.required_number("retardance_nm")?,
         ),
-        Kind::Circular => Filter::circular(fields.required_number("handedness")?),
+        FilterKind::Circular => Filter::circular(fields.required_number("handedness")?),
     }
     .map_err(|e| fields.error("type", e))
 }
 
-/// The wanted spaces and adaptations: `rgb`, else `expected.rgb`, else all.
-fn read_wanted(fields: Fields<'_>, lit: bool) -> Result<Vec<(RgbSpace, Adaptation)>, CaseError> {
+/// The requested spaces and adaptations: `rgb`, else `expected.rgb`, else all.
+fn read_rgb(fields: CaseFields<'_>, lit: bool) -> Result<Vec<(RgbSpace, Adaptation)>, CaseError> {
     if let Some(list) = fields.list("rgb")? {
         return read_pairs(fields, "rgb", list);
     }
     if let Some(expected) = fields.get("expected") {
         let path = fields.path_to("expected");
-        let expected = Fields::new(fields.case(), &path, expected)?;
+        let expected = CaseFields::new(fields.case(), &path, expected)?;
         if let Some(list) = expected.list("rgb")? {
             return read_pairs(expected, "rgb", list);
         }
@@ -256,7 +265,7 @@ fn read_wanted(fields: Fields<'_>, lit: bool) -> Result<Vec<(RgbSpace, Adaptatio
 }
 
 fn read_pairs(
-    fields: Fields<'_>,
+    fields: CaseFields<'_>,
     name: &str,
     list: &[Value],
 ) -> Result<Vec<(RgbSpace, Adaptation)>, CaseError> {
@@ -269,12 +278,12 @@ fn read_pairs(
                 Some([space, adaptation]) => json!({ "space": space, "adaptation": adaptation }),
                 _ => value.clone(),
             };
-            read_pair(Fields::new(fields.case(), &path, &long)?)
+            read_pair(CaseFields::new(fields.case(), &path, &long)?)
         })
         .collect()
 }
 
-fn read_pair(pair: Fields<'_>) -> Result<(RgbSpace, Adaptation), CaseError> {
+fn read_pair(pair: CaseFields<'_>) -> Result<(RgbSpace, Adaptation), CaseError> {
     let space = pair.text("space")?.ok_or_else(|| pair.error("space", "missing"))?;
     let adaptation = match pair.text("adaptation")? {
         Some(text) => Adaptation::parse(text).map_err(|e| pair.error("adaptation", e))?,

@@ -5,7 +5,7 @@
 //!
 //! C. de Boor, *A Practical Guide to Splines* (1978), chapter IV.
 
-use super::locate;
+use super::interval::locate;
 
 /// The values at `at` of the spline through the samples `y` at rising `x`.
 ///

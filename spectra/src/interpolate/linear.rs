@@ -1,6 +1,6 @@
 //! Straight lines between samples.
 
-use super::locate;
+use super::interval::locate;
 
 /// Interpolates samples `y` at ascending `x`; `at` lies within `x`.
 pub(crate) fn interpolate(x: &[f64], y: &[f64], at: &[f64], out: &mut [f64]) {

@@ -4,13 +4,13 @@
 //!
 //! y = p₀ + X (a₁ + X (a₂ + X (a₃ + X (a₄ + X a₅)))),
 //!
-//! where the aᵢ come from the six neighbours p₋₂ … p₃. Beyond each end two samples are made up from
-//! the first (last) six.
+//! where the aᵢ come from the six neighbours p₋₂ … p₃. Beyond each end two samples are extrapolated
+//! from the first (last) six.
 //!
 //! CIE 167:2005, *Recommended Practice for Tabulating Spectral Data for Use in Colour Computations*;
 //! S. Westland, C. Ripamonti, V. Cheung, *Computational Colour Science Using MATLAB*, 2nd ed. (2012).
 
-use super::locate;
+use super::interval::locate;
 
 /// 24 times the coefficients a₁ … a₅ over p₋₂ … p₃.
 const COEFFICIENTS: [[f64; 6]; 5] = [
@@ -36,7 +36,7 @@ pub(super) fn interpolate(x: &[f64], y: &[f64], at: &[f64], out: &mut [f64]) {
     }
 }
 
-/// The samples with two made-up ones before and behind.
+/// The samples with two extrapolated samples before and after them.
 fn pad(y: &[f64]) -> Vec<f64> {
     let first = &y[..6];
     let last: Vec<f64> = y.iter().rev().take(6).copied().collect();

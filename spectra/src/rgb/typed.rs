@@ -24,7 +24,7 @@ use palette::{
 };
 
 use super::{
-    ACES2065_1, ACESCG, ADOBE, DCI_P3, DISPLAY_P3, PROPHOTO, REC2020, RgbSpace, SRGB, Standard,
+    ACES2065_1, ACESCG, ADOBE, DCI_P3, DISPLAY_P3, PROPHOTO, REC2020, RgbSpace, SRGB, StandardSpace,
 };
 use crate::xyz::{Xyz, from_chromaticity};
 
@@ -130,7 +130,7 @@ spaces! {
 }
 
 /// Chromaticity of a primary, with its part of the luminance of white.
-fn primary(standard: &Standard, space: &RgbSpace, index: usize) -> Yxy<Any, f64> {
+fn primary(standard: &StandardSpace, space: &RgbSpace, index: usize) -> Yxy<Any, f64> {
     let [x, y] = standard.1[index];
     Yxy::new(x, y, space.to_xyz_matrix()[1][index])
 }
