@@ -67,7 +67,7 @@ fn human(
     main = match &excerpt {
         Some(excerpt) => main.element(excerpt.snippet(diagnostic, file)),
         None => {
-            let at = lines.place(source, diagnostic.span.start);
+            let at = lines.location(source, diagnostic.span.start);
             let origin = annotate_snippets::Origin::path(file).line(at.line).char_column(at.column);
             main.element(origin)
         }
@@ -136,7 +136,7 @@ fn boundary(text: &str, at: usize) -> usize {
 /// One diagnostic for an editor.
 fn to_json(diagnostic: &Diagnostic, file: &str, source: &str, lines: &LineIndex) -> Value {
     let place = |span: Span| {
-        let (start, end) = (lines.place(source, span.start), lines.place(source, span.end));
+        let (start, end) = (lines.location(source, span.start), lines.location(source, span.end));
         json!({
             "span": [span.start, span.end],
             "line": start.line,

@@ -106,7 +106,7 @@ fn what_cannot_be_written_is_refused_with_the_reason_and_leaves_no_file() {
     assert!(code == 2 && said.contains("--format"), "{said}");
     fs::write(dir.path().join("cut.pbsdf"), "tensor_file").unwrap();
     let (code, said) = bad(dir.path(), &["export", "metal.json", "--compare", "cut.pbsdf"]);
-    assert!(code == 2 && said.contains("no tensor file"), "{said}");
+    assert!(code == 2 && said.contains("not a tensor file"), "{said}");
 }
 
 #[tokio::test]

@@ -7,7 +7,8 @@ use mist_format::{
     expr::{Expr, Stack, Value},
     number::{PrintfFormat, whole_number},
     program::{
-        ForLoop, Integral, ListLoop, Loop, Output, Shape, Text, Variable, VariableKind, parse,
+        ApertureShape, ForLoop, Integral, ListLoop, Loop, Output, ProgramVariable, SourceText,
+        VariableKind, parse,
     },
     suggestion::did_you_mean,
     table::ListTable,
@@ -41,10 +42,10 @@ pub fn compile(
 ) -> Result<Job, Vec<Diagnostic>> {
     let mut program = parse(source, dialect(options.mode))?;
     for (name, value) in &options.values {
-        let named = |variable: &&mut Variable| variable.name.as_str() == name;
+        let named = |variable: &&mut ProgramVariable| variable.name.as_str() == name;
         for variable in program.variables.iter_mut().filter(named) {
             // All digits: the text gives the same number.
-            variable.value = Text::new(format!("{value:?}"), variable.value.span().start);
+            variable.value = SourceText::new(format!("{value:?}"), variable.value.span().start);
         }
     }
     let library = DataFiles::new(files, dialect(options.mode));
@@ -107,7 +108,7 @@ impl Compiler<'_> {
         })
     }
 
-    fn class(&mut self, model: &Text) -> Option<&'static Class> {
+    fn class(&mut self, model: &SourceText) -> Option<&'static Class> {
         let name = model.as_str();
         if let Some(found) = scattering::models::find(name) {
             return Some(&found.class);
@@ -131,7 +132,7 @@ impl Compiler<'_> {
         None
     }
 
-    fn expr(&mut self, text: &Text) -> Result<Expr, Fault> {
+    fn expr(&mut self, text: &SourceText) -> Result<Expr, Fault> {
         let mut expr = Expr::compile(text.as_str(), dialect(self.options.mode))
             .map_err(|error| placed(text, error.diagnostic()))?;
         let names = &mut self.names;
@@ -139,7 +140,7 @@ impl Compiler<'_> {
         Ok(expr)
     }
 
-    fn expr_or_note(&mut self, text: &Text) -> Option<Expr> {
+    fn expr_or_note(&mut self, text: &SourceText) -> Option<Expr> {
         self.expr(text).map_err(|fault| self.faults.push(*fault)).ok()
     }
 
@@ -166,7 +167,7 @@ impl Compiler<'_> {
         }
     }
 
-    fn entries(&mut self, variables: &[Variable]) -> Vec<VariableEntry> {
+    fn entries(&mut self, variables: &[ProgramVariable]) -> Vec<VariableEntry> {
         let mut entries = Vec::with_capacity(variables.len());
         for (at, variable) in variables.iter().enumerate() {
             let parameter = variable.parameter().map(str::to_owned);
@@ -233,7 +234,12 @@ impl Compiler<'_> {
     }
 
     /// The first entry with this name, whatever its case.
-    fn entry(&mut self, name: &str, place: &Text, entries: &[VariableEntry]) -> Option<usize> {
+    fn entry(
+        &mut self,
+        name: &str,
+        place: &SourceText,
+        entries: &[VariableEntry],
+    ) -> Option<usize> {
         let variables = &self.program.variables;
         let of = |entry: &VariableEntry| variables[entry.variable].name.as_str();
         let found = entries.iter().position(|entry| of(entry).eq_ignore_ascii_case(name));
@@ -423,15 +429,16 @@ impl Compiler<'_> {
         IntegralPlan { slot, name: integral.name.clone(), shape: integral.shape, settings }
     }
 
-    fn unknown_setting(&mut self, integral: &Integral, name: &Text) {
+    fn unknown_setting(&mut self, integral: &Integral, name: &SourceText) {
         let known = integral.shape.parameters();
         let message = format!("{} has no parameter {name}", integral.shape.name());
-        let help = if Shape::find(name.as_str()).is_some() || integral_starts(integral, name) {
-            "the integral before it lacks its END".to_owned()
-        } else {
-            did_you_mean(&name.as_str().to_ascii_uppercase(), known.to_vec())
-                .unwrap_or_else(|| format!("it has {}", known.join(", ")))
-        };
+        let help =
+            if ApertureShape::find(name.as_str()).is_some() || integral_starts(integral, name) {
+                "the integral before it lacks its END".to_owned()
+            } else {
+                did_you_mean(&name.as_str().to_ascii_uppercase(), known.to_vec())
+                    .unwrap_or_else(|| format!("it has {}", known.join(", ")))
+            };
         self.faults.push(fault_plain("integral/unknown-parameter", name, message).help(help));
     }
 
@@ -443,7 +450,7 @@ impl Compiler<'_> {
 
     fn format(&mut self, program: &Program) -> Option<PrintfFormat> {
         let given = program.files.format();
-        let text = given.map_or("%10g\\t", Text::as_str);
+        let text = given.map_or("%10g\\t", SourceText::as_str);
         PrintfFormat::parse(text)
             .map_err(|error| {
                 let place = given.expect("the default format is sound");
@@ -465,7 +472,7 @@ impl Compiler<'_> {
         outputs: &[OutputPlan],
         initial: &[(u32, Value)],
     ) -> Option<ColourSection> {
-        let color = program.color.as_ref()?;
+        let color = program.colour.as_ref()?;
         let incident = initial
             .iter()
             .rev()
@@ -512,7 +519,7 @@ impl Compiler<'_> {
     }
 }
 
-fn fault_plain(code: &'static str, text: &Text, message: impl Into<String>) -> Diagnostic {
+fn fault_plain(code: &'static str, text: &SourceText, message: impl Into<String>) -> Diagnostic {
     *fault(code, text, message)
 }
 
@@ -525,11 +532,11 @@ fn basis(program: &Program) -> Basis {
 }
 
 /// Whether `name = value` looks like the beginning of another integral: its value is a shape.
-fn integral_starts(integral: &Integral, name: &Text) -> bool {
+fn integral_starts(integral: &Integral, name: &SourceText) -> bool {
     integral
         .parameters
         .iter()
-        .any(|p| p.name.span() == name.span() && Shape::find(p.value.as_str()).is_some())
+        .any(|p| p.name.span() == name.span() && ApertureShape::find(p.value.as_str()).is_some())
 }
 
 /// pi and deg exist in every step, but not yet when VARIABLES is read.

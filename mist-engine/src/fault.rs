@@ -2,7 +2,7 @@
 
 use std::io;
 
-use mist_format::{Diagnostic, program::Text};
+use mist_format::{Diagnostic, program::SourceText};
 
 /// One thing that is wrong with a program at a known place.
 pub type Fault = Box<Diagnostic>;
@@ -37,7 +37,7 @@ fn first(diagnostics: &[Diagnostic]) -> String {
 }
 
 /// A diagnostic about a part of `text`, moved to its place in the program.
-pub(crate) fn placed(text: &Text, mut diagnostic: Diagnostic) -> Fault {
+pub(crate) fn placed(text: &SourceText, mut diagnostic: Diagnostic) -> Fault {
     diagnostic.span = text.locate(diagnostic.span);
     for note in &mut diagnostic.notes {
         note.span = note.span.map(|span| text.locate(span));
@@ -46,6 +46,6 @@ pub(crate) fn placed(text: &Text, mut diagnostic: Diagnostic) -> Fault {
 }
 
 /// A diagnostic about the whole of `text`.
-pub(crate) fn fault(code: &'static str, text: &Text, message: impl Into<String>) -> Fault {
+pub(crate) fn fault(code: &'static str, text: &SourceText, message: impl Into<String>) -> Fault {
     Box::new(Diagnostic::error(code, text.span(), message))
 }

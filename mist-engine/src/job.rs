@@ -4,7 +4,7 @@ use mist_format::{
     Diagnostic, Program,
     expr::{Expr, Value},
     number::PrintfFormat,
-    program::{Shape, Text},
+    program::{ApertureShape, SourceText},
 };
 use scattering::{Basis, Class, Mode, ParamError};
 
@@ -84,7 +84,7 @@ pub(crate) struct VariableEntry {
 pub(crate) struct RequiredVariables {
     pub(crate) incidentangle: u32,
     pub(crate) differential: u32,
-    pub(crate) incidentpol: Option<(Text, Expr)>,
+    pub(crate) incidentpol: Option<(SourceText, Expr)>,
     pub(crate) minsamples: u32,
     pub(crate) rotation: u32,
     pub(crate) integrationmode: u32,
@@ -98,7 +98,7 @@ pub(crate) struct RequiredVariables {
 /// A parameter of an integral: which it is, and its expression.
 pub(crate) struct ApertureSetting {
     pub(crate) key: ApertureParameter,
-    pub(crate) text: Text,
+    pub(crate) text: SourceText,
     pub(crate) expr: Expr,
 }
 
@@ -120,20 +120,20 @@ pub(crate) enum ApertureParameter {
 /// One integral.
 pub(crate) struct IntegralPlan {
     pub(crate) slot: u32,
-    pub(crate) name: Text,
-    pub(crate) shape: Shape,
+    pub(crate) name: SourceText,
+    pub(crate) shape: ApertureShape,
     pub(crate) settings: Vec<ApertureSetting>,
 }
 
 impl IntegralPlan {
     /// What is written for the last parameter that is one of `keys`.
-    fn setting(&self, keys: &[ApertureParameter]) -> Option<&Text> {
+    fn setting(&self, keys: &[ApertureParameter]) -> Option<&SourceText> {
         let found = self.settings.iter().rev().find(|setting| keys.contains(&setting.key));
         found.map(|setting| &setting.text)
     }
 
     /// What is written for the corner `number` of a polygon, from 1.
-    fn vertex(&self, number: usize) -> Option<&Text> {
+    fn vertex(&self, number: usize) -> Option<&SourceText> {
         let mut corners =
             self.settings.iter().filter(|setting| setting.key == ApertureParameter::Vertex);
         corners.nth(number.checked_sub(1)?).map(|setting| &setting.text)
@@ -144,7 +144,7 @@ impl IntegralPlan {
 pub(crate) struct OutputPlan {
     pub(crate) slot: u32,
     pub(crate) label: String,
-    pub(crate) text: Text,
+    pub(crate) text: SourceText,
     pub(crate) expr: Expr,
 }
 
@@ -171,7 +171,7 @@ impl Job {
 
     /// Name of the samples file, if the program wants one.
     pub fn samples_name(&self) -> Option<&str> {
-        self.program.files.samples().map(Text::as_str)
+        self.program.files.samples().map(SourceText::as_str)
     }
 
     /// Whether steps must run one after the other, because the program feeds results back.
@@ -244,12 +244,12 @@ impl Job {
     }
 
     /// What is written for the variable in `slot`.
-    pub(crate) fn variable_text(&self, slot: u32) -> Option<&Text> {
+    pub(crate) fn variable_text(&self, slot: u32) -> Option<&SourceText> {
         let entry = self.entries.iter().rev().find(|entry| entry.slot == Some(slot))?;
         Some(&self.program.variables[entry.variable].value)
     }
 
-    fn name_or(&self, given: Option<&Text>, extension: &str) -> String {
+    fn name_or(&self, given: Option<&SourceText>, extension: &str) -> String {
         given.map_or_else(|| format!("{}.{extension}", self.options.job), |t| t.as_str().to_owned())
     }
 }

@@ -5,7 +5,7 @@ use std::{io, ops::Range, sync::Arc};
 use mist_format::{
     expr::{Expr, Stack, Value},
     number::push_list,
-    program::Text,
+    program::SourceText,
 };
 
 use crate::{
@@ -236,7 +236,7 @@ impl<'j> Outputs<'j> {
     }
 
     /// The number that `expr`, written at `place`, gives now.
-    pub(crate) fn number_at(&mut self, expr: &Expr, place: &Text) -> Result<f64, Fault> {
+    pub(crate) fn number_at(&mut self, expr: &Expr, place: &SourceText) -> Result<f64, Fault> {
         self.scope.number(expr, &mut self.stack).map_err(|error| {
             let known: Vec<&str> = self.scope.defined().map(|s| self.job.names.name(s)).collect();
             placed(place, error.diagnostic(known))

@@ -1,6 +1,6 @@
 //! The one place that says what the engine does differently under compat.
 //!
-//! How texts are read is decided in `mist-format` ([`mist_format::dialect::Quirk`]), what models
+//! How texts are read is decided in `mist-format` ([`mist_format::dialect::TextDeviation`]), what models
 //! compute in `scattering` ([`scattering::Defect`]); this is the rest: loops, sending of
 //! parameters, apertures.
 

@@ -19,7 +19,7 @@ use due::Due;
 use mist_format::{
     Diagnostic, Program,
     expr::{EvalError, Expr, Stack, Value},
-    program::Text,
+    program::SourceText,
 };
 use scattering::{Mode, Stokes};
 use sending::Sent;
@@ -314,7 +314,7 @@ impl<'j> Replay<'j> {
         Ok(())
     }
 
-    fn text(&self, entry: &VariableEntry) -> &'j Text {
+    fn text(&self, entry: &VariableEntry) -> &'j SourceText {
         &self.job.program.variables[entry.variable].value
     }
 
@@ -530,13 +530,13 @@ fn missing_required(program: &Program, name: &str) -> Fault {
 }
 
 /// An error of an evaluation, with the names that were known.
-fn unknown(job: &Job, scope: &SlotValues, text: &Text, error: &EvalError) -> Fault {
+fn unknown(job: &Job, scope: &SlotValues, text: &SourceText, error: &EvalError) -> Fault {
     let known: Vec<&str> = scope.defined().map(|slot| job.names.name(slot)).collect();
     placed(text, error.diagnostic(known))
 }
 
 /// The text that a loop wrote into an entry, compiled.
-fn written_expr(job: &Job, written: &str, text: &Text) -> Result<Expr, Fault> {
+fn written_expr(job: &Job, written: &str, text: &SourceText) -> Result<Expr, Fault> {
     let mut expr = Expr::compile(written, dialect(job.options.mode)).map_err(|error| {
         let diagnostic = error.diagnostic();
         let message = format!("the loop value {written:?}: {}", diagnostic.message);

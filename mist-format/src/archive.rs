@@ -1,9 +1,8 @@
 //! Documents saved by NIST's Windows program (`MISTWizardFile1.0`), read only.
 //!
-//! The file is a plain archive: texts behind a length byte, integers of four bytes with the
-//! lowest first. Before every element of the document's tree stands the number of its type;
-//! the results of the last run, which follow the last element, are not read. What is known of
-//! the types was found from published documents:
+//! The file is a plain archive: texts after a length byte, integers of four bytes, little endian.
+//! Each element of the document's tree follows the number of its type; the results of the last
+//! run, after the last element, are not read. The types were derived from published documents:
 //!
 //! | type | element | fields |
 //! |---|---|---|
@@ -26,7 +25,7 @@ const MAGIC: &str = "MISTWizardFile1.0";
 
 /// One element of a document.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Element {
+pub enum WizardElement {
     /// A variable of the user, or one that is required.
     Variable {
         /// Its name.
@@ -42,7 +41,7 @@ pub enum Element {
         name: String,
         /// An expression, or a text.
         value: String,
-        /// Whether it is a text, and no expression.
+        /// True for a text, false for an expression.
         literal: bool,
         /// A remark.
         comment: String,
@@ -87,25 +86,25 @@ pub enum Element {
 
 /// A document.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Document {
+pub struct WizardDocument {
     /// The class name of the model.
     pub model: String,
     /// A remark on the model.
     pub comment: String,
     /// All elements in their order.
-    pub elements: Vec<Element>,
+    pub elements: Vec<WizardElement>,
 }
 
-/// Why a file is no such document.
+/// Errors of reading a document.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ArchiveError {
-    /// It does not begin as documents do.
-    #[error("this is no MISTWizardFile1.0 document")]
+    /// The first bytes are not those of a document.
+    #[error("not a MISTWizardFile1.0 document")]
     NoDocument,
-    /// It ends too early.
+    /// The document is truncated.
     #[error("the document ends inside an element, at byte {at}")]
     Truncated {
-        /// Where.
+        /// Offset in bytes.
         at: usize,
     },
     /// An element whose form is not known.
@@ -113,13 +112,13 @@ pub enum ArchiveError {
     UnknownElement {
         /// The number of its type.
         kind: u32,
-        /// Where.
+        /// Offset in bytes.
         at: usize,
     },
 }
 
-impl Document {
-    /// Whether a file is such a document.
+impl WizardDocument {
+    /// True if the bytes are such a document.
     pub fn is_document(bytes: &[u8]) -> bool {
         bytes.first() == Some(&(MAGIC.len() as u8)) && bytes[1..].starts_with(MAGIC.as_bytes())
     }
@@ -132,7 +131,7 @@ impl Document {
         if !Self::is_document(bytes) {
             return Err(ArchiveError::NoDocument);
         }
-        let mut reader = Reader { bytes, at: 1 + MAGIC.len() };
+        let mut reader = WizardReader { bytes, at: 1 + MAGIC.len() };
         let mut document =
             Self { model: String::new(), comment: String::new(), elements: Vec::new() };
         loop {
@@ -150,44 +149,44 @@ impl Document {
     }
 }
 
-struct Reader<'b> {
+struct WizardReader<'b> {
     bytes: &'b [u8],
     at: usize,
 }
 
-impl Reader<'_> {
-    fn element(&mut self, kind: u32, at: usize) -> Result<Element, ArchiveError> {
+impl WizardReader<'_> {
+    fn element(&mut self, kind: u32, at: usize) -> Result<WizardElement, ArchiveError> {
         Ok(match kind {
             0 | 1 => {
                 let [name, value, comment] = self.texts()?;
-                Element::Variable { name, value, comment }
+                WizardElement::Variable { name, value, comment }
             }
             2 => {
                 let [name, value] = self.texts()?;
                 let literal = self.integer()? != 0;
-                Element::Parameter { name, value, literal, comment: self.text()? }
+                WizardElement::Parameter { name, value, literal, comment: self.text()? }
             }
             3 => {
                 let [name, value, comment] = self.texts()?;
-                Element::Parameter { name, value, literal: true, comment }
+                WizardElement::Parameter { name, value, literal: true, comment }
             }
             5 => {
                 let [name, from, to, by, comment] = self.texts()?;
-                Element::For { name, bounds: [from, to, by], comment }
+                WizardElement::For { name, bounds: [from, to, by], comment }
             }
             9 => {
                 let [text, comment] = self.texts()?;
-                Element::Output { text, comment }
+                WizardElement::Output { text, comment }
             }
             10 => {
                 let [name, value, comment] = self.texts()?;
-                Element::File { name, value, comment }
+                WizardElement::File { name, value, comment }
             }
             19 => {
                 let [_, name, theta, phi, inpol, pol, comment] = self.texts()?;
                 let center = direction(&theta, &phi);
                 let parameters = vec![("CENTER", center), ("INPOL", inpol), ("POL", pol)];
-                Element::Integral { name, shape: "DIFFERENTIAL", parameters, comment }
+                WizardElement::Integral { name, shape: "DIFFERENTIAL", parameters, comment }
             }
             22 => {
                 let [name, inpol, pol, comment] = self.texts()?;
@@ -201,7 +200,7 @@ impl Reader<'_> {
                     ("INPOL", inpol),
                     ("POL", pol),
                 ];
-                Element::Integral { name, shape: "ANNULUS", parameters, comment }
+                WizardElement::Integral { name, shape: "ANNULUS", parameters, comment }
             }
             kind => return Err(ArchiveError::UnknownElement { kind, at }),
         })
@@ -215,7 +214,7 @@ impl Reader<'_> {
         Ok(texts)
     }
 
-    /// A text behind its length: a byte, or 255 and two bytes, or 255, 65535 and four bytes.
+    /// A text after its length: a byte, or 255 and two bytes, or 255, 65535 and four bytes.
     fn text(&mut self) -> Result<String, ArchiveError> {
         let mut len = u32::from(self.take::<1>()?[0]);
         if len == u32::from(u8::MAX) {
@@ -252,11 +251,11 @@ fn direction(theta: &str, phi: &str) -> String {
 pub(crate) mod tests {
     use super::*;
 
-    /// Puts a document together from integers and texts.
+    /// Builds a document from integers and texts.
     #[derive(Default)]
-    pub(crate) struct Writer(Vec<u8>);
+    pub(crate) struct WizardWriter(Vec<u8>);
 
-    impl Writer {
+    impl WizardWriter {
         pub(crate) fn new() -> Self {
             Self::default().texts(&[MAGIC])
         }
@@ -292,7 +291,7 @@ pub(crate) mod tests {
     #[test]
     fn elements_are_read_in_their_order() {
         let long = "x".repeat(300);
-        let bytes = Writer::new()
+        let bytes = WizardWriter::new()
             .element(4, &["Lambertian_BRDF_Model", ""])
             .element(0, &["a", "1", &long])
             .element(2, &["lambda", "0.5"])
@@ -300,30 +299,30 @@ pub(crate) mod tests {
             .texts(&[""])
             .element(9, &["y=a", ""])
             .end();
-        let document = Document::read(&bytes).unwrap();
+        let document = WizardDocument::read(&bytes).unwrap();
         assert_eq!(document.model, "Lambertian_BRDF_Model");
         assert_eq!(document.elements.len(), 3);
         assert_eq!(
             document.elements[0],
-            Element::Variable { name: "a".into(), value: "1".into(), comment: long }
+            WizardElement::Variable { name: "a".into(), value: "1".into(), comment: long }
         );
     }
 
     #[test]
     fn every_cut_of_a_document_is_an_error() {
-        let bytes = Writer::new().element(4, &["M", ""]).element(0, &["a", "1", ""]).end();
+        let bytes = WizardWriter::new().element(4, &["M", ""]).element(0, &["a", "1", ""]).end();
         let end = bytes.len() - "MoreData".len() - 1;
         for cut in 0..end {
-            assert!(Document::read(&bytes[..cut]).is_err(), "{cut}");
+            assert!(WizardDocument::read(&bytes[..cut]).is_err(), "{cut}");
         }
-        assert!(Document::read(&bytes[..end]).is_ok());
+        assert!(WizardDocument::read(&bytes[..end]).is_ok());
     }
 
     #[test]
-    fn unknown_elements_are_told() {
-        let bytes = Writer::new().element(99, &[]).end();
-        let error = Document::read(&bytes).unwrap_err();
+    fn unknown_elements_are_reported() {
+        let bytes = WizardWriter::new().element(99, &[]).end();
+        let error = WizardDocument::read(&bytes).unwrap_err();
         assert_eq!(error, ArchiveError::UnknownElement { kind: 99, at: 18 });
-        assert_eq!(Document::read(b"MODEL = x"), Err(ArchiveError::NoDocument));
+        assert_eq!(WizardDocument::read(b"MODEL = x"), Err(ArchiveError::NoDocument));
     }
 }

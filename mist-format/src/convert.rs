@@ -1,15 +1,15 @@
-//! Old programs and documents to programs in today's language.
+//! Converts old programs and documents to programs in the present language.
 //!
 //! * Documents of the Windows program become programs; parameters that their expressions read
 //!   by the bare name are read as `#name`.
 //! * A stack given by its films, `$stack = "m t"`, becomes a `Stack_StackModel` with films.
 //! * Parameters and files with an empty value, which mean the default, are left out.
 
-use crate::archive::{ArchiveError, Document, Element};
+use crate::archive::{ArchiveError, WizardDocument, WizardElement};
 use crate::diagnostic::Diagnostic;
 use crate::dialect::Dialect;
 use crate::expr::Function;
-use crate::program::{self, Program, Text, Variable, VariableKind};
+use crate::program::{self, Program, ProgramVariable, SourceText, VariableKind};
 use crate::span::Span;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -17,13 +17,13 @@ use std::fmt::Write as _;
 /// Parameters that hold a stack model.
 const STACKS: [&str; 4] = ["stack", "spherecoat", "overcoat_films", "films"];
 
-/// Why a file cannot be converted.
+/// Errors of converting a file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConvertError {
-    /// It is a document that cannot be read.
+    /// The document cannot be read.
     #[error(transparent)]
     Document(#[from] ArchiveError),
-    /// It is a program that cannot be read.
+    /// The program cannot be read.
     #[error("the program cannot be read")]
     Program(Vec<Diagnostic>),
     /// The program made from a document cannot be read.
@@ -31,7 +31,7 @@ pub enum ConvertError {
     Incomplete {
         /// The text of the program.
         text: String,
-        /// What is wrong with it.
+        /// The errors.
         found: Vec<Diagnostic>,
     },
 }
@@ -41,8 +41,8 @@ pub enum ConvertError {
 /// # Errors
 /// See [`ConvertError`].
 pub fn convert(bytes: &[u8]) -> Result<String, ConvertError> {
-    let program = if Document::is_document(bytes) {
-        let text = document_text(&Document::read(bytes)?);
+    let program = if WizardDocument::is_document(bytes) {
+        let text = document_text(&WizardDocument::read(bytes)?);
         match program::parse(&text, Dialect::Sound) {
             Ok(program) => program,
             Err(found) => return Err(ConvertError::Incomplete { text, found }),
@@ -54,7 +54,7 @@ pub fn convert(bytes: &[u8]) -> Result<String, ConvertError> {
     Ok(upgrade(program).to_string())
 }
 
-/// Today's form of the variables and files of a program.
+/// The present form of the variables and files of a program.
 fn upgrade(mut program: Program) -> Program {
     let stacks: BTreeSet<String> =
         program.variables.iter().filter(|v| is_stack_model(v)).map(parameter).collect();
@@ -68,15 +68,15 @@ fn upgrade(mut program: Program) -> Program {
     program
 }
 
-fn parameter(variable: &Variable) -> String {
+fn parameter(variable: &ProgramVariable) -> String {
     variable.parameter().unwrap_or_default().to_owned()
 }
 
-fn is_stack_model(variable: &Variable) -> bool {
+fn is_stack_model(variable: &ProgramVariable) -> bool {
     variable.kind == VariableKind::Literal && variable.value.as_str().ends_with("_StackModel")
 }
 
-fn upgrade_variable(variable: Variable, stacks: &BTreeSet<String>) -> Vec<Variable> {
+fn upgrade_variable(variable: ProgramVariable, stacks: &BTreeSet<String>) -> Vec<ProgramVariable> {
     if variable.kind != VariableKind::Literal {
         return vec![variable];
     }
@@ -91,40 +91,43 @@ fn upgrade_variable(variable: Variable, stacks: &BTreeSet<String>) -> Vec<Variab
         return vec![variable];
     }
     let place = variable.name.span().start;
-    let model = Variable {
+    let model = ProgramVariable {
         name: variable.name.clone(),
         kind: VariableKind::Literal,
-        value: Text::new("Stack_StackModel", place),
+        value: SourceText::new("Stack_StackModel", place),
     };
-    let films = Variable { name: Text::new(format!("${name}.stack"), place), ..variable };
+    let films =
+        ProgramVariable { name: SourceText::new(format!("${name}.stack"), place), ..variable };
     vec![model, films]
 }
 
 /// A document as a program.
-fn document_text(document: &Document) -> String {
-    let names = Names::of(document);
+fn document_text(document: &WizardDocument) -> String {
+    let names = DocumentNames::of(document);
     let mut sections: [String; 5] = Default::default();
     let mut outputs = 0;
     for element in &document.elements {
         let (section, lines) = match element {
-            Element::Variable { name, value, comment } => {
+            WizardElement::Variable { name, value, comment } => {
                 (0, entry(name, &names.resolve(value), comment))
             }
-            Element::Parameter { name, value, literal: true, comment } => {
+            WizardElement::Parameter { name, value, literal: true, comment } => {
                 (0, entry(&format!("${name}"), value, comment))
             }
-            Element::Parameter { name, value, literal: false, comment } => {
+            WizardElement::Parameter { name, value, literal: false, comment } => {
                 (0, entry(&format!("#{name}"), &names.resolve(value), comment))
             }
-            Element::For { name, bounds, comment } => (1, for_line(name, bounds, comment, &names)),
-            Element::Integral { name, shape, parameters, comment } => {
+            WizardElement::For { name, bounds, comment } => {
+                (1, for_line(name, bounds, comment, &names))
+            }
+            WizardElement::Integral { name, shape, parameters, comment } => {
                 (2, integral_lines(name, shape, parameters, comment, &names))
             }
-            Element::Output { text, comment } => {
+            WizardElement::Output { text, comment } => {
                 outputs += 1;
                 (3, output_line(outputs, text, comment, &names))
             }
-            Element::File { name, value, comment } => (4, entry(name, value, comment)),
+            WizardElement::File { name, value, comment } => (4, entry(name, value, comment)),
         };
         sections[section].push_str(&lines);
     }
@@ -137,7 +140,7 @@ fn document_text(document: &Document) -> String {
     )
 }
 
-/// An assignment with its comment; nothing where the value is empty.
+/// An assignment with its comment; empty if the value is empty.
 fn entry(name: &str, value: &str, comment: &str) -> String {
     let (value, remark) = value.split_once(';').unwrap_or((value, ""));
     let value = value.trim().trim_matches('"').trim();
@@ -147,7 +150,7 @@ fn entry(name: &str, value: &str, comment: &str) -> String {
     format!("{name} = {}{}\n", quote(value), remarks(&[remark, comment]))
 }
 
-fn for_line(name: &str, bounds: &[String; 3], comment: &str, names: &Names) -> String {
+fn for_line(name: &str, bounds: &[String; 3], comment: &str, names: &DocumentNames) -> String {
     let [from, to, by] = bounds.each_ref().map(|bound| quote(&names.resolve(bound)));
     format!("FOR {name} FROM {from} TO {to} BY {by}{}\n", remarks(&[comment]))
 }
@@ -157,7 +160,7 @@ fn integral_lines(
     shape: &str,
     parameters: &[(&str, String)],
     comment: &str,
-    names: &Names,
+    names: &DocumentNames,
 ) -> String {
     let mut lines = format!("{name} = {shape}{}\n", remarks(&[comment]));
     for (key, value) in parameters {
@@ -166,7 +169,7 @@ fn integral_lines(
     lines + "END\n"
 }
 
-fn output_line(number: usize, text: &str, comment: &str, names: &Names) -> String {
+fn output_line(number: usize, text: &str, comment: &str, names: &DocumentNames) -> String {
     let labelled = match text.split_once('=') {
         Some(("", expression)) => expression.to_owned(),
         Some((label, expression)) => format!("{label}={}", names.resolve(expression)),
@@ -189,24 +192,24 @@ fn remarks(remarks: &[&str]) -> String {
     text
 }
 
-/// The names that expressions of a document can mean.
-struct Names {
+/// The names to which expressions of a document can refer.
+struct DocumentNames {
     variables: BTreeSet<String>,
     parameters: BTreeSet<String>,
 }
 
-impl Names {
-    fn of(document: &Document) -> Self {
+impl DocumentNames {
+    fn of(document: &WizardDocument) -> Self {
         let mut names = Self { variables: BTreeSet::new(), parameters: BTreeSet::new() };
         for element in &document.elements {
             match element {
-                Element::Variable { name, .. } | Element::Integral { name, .. } => {
+                WizardElement::Variable { name, .. } | WizardElement::Integral { name, .. } => {
                     names.variables.insert(name.clone());
                 }
-                Element::Parameter { name, literal: false, .. } => {
+                WizardElement::Parameter { name, literal: false, .. } => {
                     names.parameters.insert(name.clone());
                 }
-                Element::Output { text, .. } => {
+                WizardElement::Output { text, .. } => {
                     let label = text.split_once('=').map_or(text.as_str(), |parts| parts.0);
                     names.variables.insert(label.to_owned());
                 }
@@ -216,7 +219,7 @@ impl Names {
         names
     }
 
-    /// The expression with `#` before each parameter that is no variable.
+    /// The expression with `#` before each parameter that is not a variable.
     fn resolve(&self, expression: &str) -> String {
         let is_name =
             |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '#' | '$' | '@');
@@ -248,11 +251,11 @@ impl From<&ArchiveError> for Diagnostic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::archive::tests::Writer;
+    use crate::archive::tests::WizardWriter;
 
     fn document() -> Vec<u8> {
-        let required = |writer: Writer, name, value| writer.element(1, &[name, value, ""]);
-        let mut writer = Writer::new()
+        let required = |writer: WizardWriter, name, value| writer.element(1, &[name, value, ""]);
+        let mut writer = WizardWriter::new()
             .element(4, &["Bobbert_Vlieger_BRDF_Model", "a sphere"])
             .element(0, &["deg", "atan(1)/45", "one degree"])
             .element(0, &["t", "30", ""]);
@@ -333,11 +336,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_neither_is_told() {
+    fn other_files_are_refused() {
         assert!(matches!(convert(b"hello"), Err(ConvertError::Program(_))));
         let cut = &document()[..100];
         assert!(matches!(convert(cut), Err(ConvertError::Document(_))));
-        let empty = Writer::new().element(4, &["M", ""]).end();
+        let empty = WizardWriter::new().element(4, &["M", ""]).end();
         assert!(matches!(convert(&empty), Err(ConvertError::Incomplete { .. })));
     }
 }

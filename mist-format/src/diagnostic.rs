@@ -1,41 +1,41 @@
-//! What is wrong with a text, where, and what to write instead: data only, rendered elsewhere.
+//! Diagnostics of a text: message, location and help as data, without rendering.
 
 use crate::span::Span;
 use serde::Serialize;
 
-/// How bad it is.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Allowed, but probably not meant.
+    /// Allowed, but probably a mistake.
     Warning,
     /// The text is refused.
     Error,
 }
 
-/// A second place that belongs to a diagnostic, or a sentence more.
+/// A further location or fact of a diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Note {
-    /// What to know.
+    /// The fact.
     pub message: String,
-    /// Where, if it has a place of its own.
+    /// Its location, if it has one.
     pub span: Option<Span>,
 }
 
-/// One finding about one text.
+/// A diagnostic of a text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnostic {
-    /// Stable name of the finding, such as `program/missing-end`.
+    /// Stable code of the diagnostic, such as `program/missing-end`.
     pub code: &'static str,
     /// Warning or error.
     pub severity: Severity,
-    /// What is wrong: lower case, no full stop.
+    /// The problem, in lower case without full stop.
     pub message: String,
-    /// Where.
+    /// The location.
     pub span: Span,
-    /// What to write instead.
+    /// The remedy.
     pub help: Option<String>,
-    /// Further places and facts, such as what NIST's program does with the text.
+    /// Further locations and facts, such as the reading of NIST's program.
     pub notes: Vec<Note>,
 }
 
@@ -51,29 +51,29 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::error(code, span, message) }
     }
 
-    /// The same with what to write instead.
+    /// The diagnostic with a remedy.
     pub fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 
-    /// The same with help if there is some.
+    /// The diagnostic with a remedy if there is one.
     pub fn help_if(self, help: Option<String>) -> Self {
         Self { help: help.or(self.help), ..self }
     }
 
-    /// The same with one fact more.
+    /// The diagnostic with a further fact.
     pub fn note(mut self, message: impl Into<String>) -> Self {
         self.notes.push(Note { message: message.into(), span: None });
         self
     }
 
-    /// The same with one place more.
+    /// The diagnostic with a further location.
     pub fn note_at(mut self, span: Span, message: impl Into<String>) -> Self {
         self.notes.push(Note { message: message.into(), span: Some(span) });
         self
     }
 
-    /// Whether the text is refused because of it.
+    /// True if the text is refused because of it.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }

@@ -1,16 +1,16 @@
-//! The one place that says what differs between the two ways of reading a MIST text.
+//! The two dialects of MIST texts, and the list of their differences.
 //!
-//! NIST's program reads a few things in ways nobody would guess. [`Dialect::Compat`] reads
-//! them the same way; [`Dialect::Sound`] refuses them (or, for whole files, reads what is
-//! written). Each such thing is a [`Quirk`].
+//! NIST's program reads some texts differently from what is written. [`Dialect::Compat`] reads
+//! them in the same way; [`Dialect::Sound`] refuses them (or, for whole files, reads what is
+//! written). Each difference is a [`TextDeviation`].
 
 use serde::{Deserialize, Serialize};
 
-/// How texts are read.
+/// The dialect of a text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Dialect {
-    /// Surprising readings are refused with an explanation.
+    /// Texts that NIST's program misreads are refused with an explanation.
     #[default]
     Sound,
     /// Exactly what NIST's MIST 4.22a reads.
@@ -18,26 +18,26 @@ pub enum Dialect {
 }
 
 impl Dialect {
-    /// Whether this is [`Dialect::Compat`].
+    /// True for [`Dialect::Compat`].
     pub fn is_compat(self) -> bool {
         self == Self::Compat
     }
 }
 
-/// What the sound dialect does where the quirk would act.
+/// The sound dialect's reading of a text with a deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SoundReading {
-    /// The same as NIST: the quirk is part of the language.
+    /// The same as NIST: the deviation is part of the language.
     Same,
     /// The text is refused.
     Refused,
-    /// The text means what it says.
+    /// The text is read as written.
     Plain,
 }
 
-/// A surprising reading of NIST's program.
+/// A deviation of NIST's reading from the written text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Quirk {
+pub enum TextDeviation {
     /// `a junk = 5` sets a: everything between a name and the next `=` is ignored, also a name
     /// on a line of its own.
     JunkBeforeEquals,
@@ -59,7 +59,7 @@ pub enum Quirk {
     SignLost,
     /// `␣␣-2^2` = +4 though `-2^2` = −4: behind blanks the minus belongs to the number.
     SignBindsToNumber,
-    /// `1e+x` = x: what only looks like the beginning of a number is dropped.
+    /// `1e+x` = x: an incomplete number is dropped.
     NumberJunk,
     /// Arithmetic works on the first element only, the others are appended:
     /// `2*(1,2,3)` = (2,2,3).
@@ -80,8 +80,8 @@ pub enum Quirk {
     NegativeThickness,
 }
 
-impl Quirk {
-    /// Every quirk, in the order of this file.
+impl TextDeviation {
+    /// All deviations, in the order of this file.
     pub const ALL: &'static [Self] = &[
         Self::JunkBeforeEquals,
         Self::EqualsBeforeName,
@@ -104,7 +104,7 @@ impl Quirk {
         Self::NegativeThickness,
     ];
 
-    /// What the sound dialect does instead.
+    /// The reading of the sound dialect.
     pub fn sound_reading(self) -> SoundReading {
         match self {
             Self::LeadingMinus | Self::PowerFromLeft | Self::AndOrOneRank => SoundReading::Same,
@@ -113,12 +113,12 @@ impl Quirk {
         }
     }
 
-    /// Whether a text is read NIST's way in `dialect`.
+    /// True if `dialect` reads the text as NIST's program does.
     pub fn applies_in(self, dialect: Dialect) -> bool {
         dialect.is_compat() || self.sound_reading() == SoundReading::Same
     }
 
-    /// Whether a text that shows the quirk is refused in `dialect`.
+    /// True if `dialect` refuses texts with the deviation.
     pub fn refused_in(self, dialect: Dialect) -> bool {
         !dialect.is_compat() && self.sound_reading() == SoundReading::Refused
     }
@@ -129,12 +129,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_quirk_acts_in_compat_and_is_the_same_refused_or_plain_in_sound() {
-        for quirk in Quirk::ALL {
-            assert!(quirk.applies_in(Dialect::Compat) && !quirk.refused_in(Dialect::Compat));
-            let sound = quirk.sound_reading();
-            assert_eq!(quirk.applies_in(Dialect::Sound), sound == SoundReading::Same);
-            assert_eq!(quirk.refused_in(Dialect::Sound), sound == SoundReading::Refused);
+    fn deviations_act_in_compat_and_are_same_refused_or_plain_in_sound() {
+        for deviation in TextDeviation::ALL {
+            assert!(
+                deviation.applies_in(Dialect::Compat) && !deviation.refused_in(Dialect::Compat)
+            );
+            let sound = deviation.sound_reading();
+            assert_eq!(deviation.applies_in(Dialect::Sound), sound == SoundReading::Same);
+            assert_eq!(deviation.refused_in(Dialect::Sound), sound == SoundReading::Refused);
         }
     }
 }

@@ -13,14 +13,13 @@ pub mod suggestion;
 pub mod table;
 
 pub use diagnostic::{Diagnostic, Note, Severity};
-pub use dialect::{Dialect, Quirk};
+pub use dialect::{Dialect, TextDeviation};
 pub use program::Program;
-pub use span::{LineIndex, Place, Span};
+pub use span::{LineIndex, SourceLocation, Span};
 
 use std::borrow::Cow;
 
-/// The text that the bytes of a file are: UTF-8, or else one character per byte (Latin-1), as
-/// old programs with an `µ` in a comment have it.
+/// Decodes the bytes of a file: UTF-8, or else Latin-1, as in old programs with an `µ` in a comment.
 pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),

@@ -1,4 +1,4 @@
-//! Byte ranges in a text, and where they stand in lines and columns.
+//! Byte ranges in a text, and their lines and columns.
 
 use serde::Serialize;
 
@@ -32,15 +32,15 @@ impl Span {
         Self { start: self.start + offset, end: self.end + offset }
     }
 
-    /// The bytes it covers, or nothing where the range does not fit `text`.
+    /// The text of the range; empty if the range is not inside `text`.
     pub fn of(self, text: &str) -> &str {
         text.get(self.start..self.end).unwrap_or("")
     }
 }
 
-/// A place for people: both numbers begin at 1; columns count characters.
+/// A location as line and column; both begin at 1, columns count characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Place {
+pub struct SourceLocation {
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
@@ -54,7 +54,7 @@ pub struct LineIndex {
 }
 
 impl LineIndex {
-    /// Notes where the lines of `text` begin.
+    /// The index of the lines of `text`.
     pub fn new(text: &str) -> Self {
         let after_breaks = text.bytes().enumerate().filter(|(_, b)| *b == b'\n');
         Self { starts: std::iter::once(0).chain(after_breaks.map(|(i, _)| i + 1)).collect() }
@@ -66,11 +66,11 @@ impl LineIndex {
     }
 
     /// Line and column of the byte at `offset`; `text` is the text given to [`LineIndex::new`].
-    pub fn place(&self, text: &str, offset: usize) -> Place {
+    pub fn location(&self, text: &str, offset: usize) -> SourceLocation {
         let line = self.line(offset);
         let start = self.starts[line - 1];
         let upto = text.get(start..offset.min(text.len())).unwrap_or("");
-        Place { line, column: upto.chars().count() + 1 }
+        SourceLocation { line, column: upto.chars().count() + 1 }
     }
 }
 
@@ -79,17 +79,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn places_count_lines_and_characters_from_one() {
+    fn locations_count_lines_and_characters_from_one() {
         let text = "a\nµb\n";
         let lines = LineIndex::new(text);
-        assert_eq!(lines.place(text, 0), Place { line: 1, column: 1 });
-        assert_eq!(lines.place(text, 4), Place { line: 2, column: 2 });
-        assert_eq!(lines.place(text, 6), Place { line: 3, column: 1 });
+        assert_eq!(lines.location(text, 0), SourceLocation { line: 1, column: 1 });
+        assert_eq!(lines.location(text, 4), SourceLocation { line: 2, column: 2 });
+        assert_eq!(lines.location(text, 6), SourceLocation { line: 3, column: 1 });
     }
 
     #[test]
-    fn an_offset_behind_the_end_is_still_a_place() {
-        assert_eq!(LineIndex::new("ab").place("ab", 99).line, 1);
+    fn an_offset_after_the_end_has_a_location() {
+        assert_eq!(LineIndex::new("ab").location("ab", 99).line, 1);
         assert_eq!(Span::new(1, 9).of("ab"), "");
     }
 }

@@ -1,10 +1,11 @@
-//! Did-you-mean: the known name that a wrong one was most likely meant to be.
+//! Suggestions: the known name that is most similar to a wrong one.
 
 /// Names closer than this (Jaro–Winkler, 1 = equal) are worth proposing; strsim's authors and
 /// cargo use values from 0.7 to 0.85 for the same purpose.
 const CLOSE_ENOUGH: f64 = 0.8;
 
-/// The known name nearest to `wrong`, if one is near. A difference in case only always wins.
+/// The known name most similar to `wrong`, if one is similar enough; a name that differs in case
+/// only is preferred.
 pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wrong_folded = wrong.to_lowercase();
     known

@@ -60,7 +60,7 @@ fn text_of(name: &str) -> String {
 }
 
 /// Every expression of a program.
-fn expressions(program: &Program) -> Vec<&program::Text> {
+fn expressions(program: &Program) -> Vec<&program::SourceText> {
     let variables = program.variables.iter().filter(|v| v.kind != VariableKind::Literal);
     let parameters = program.integrals.iter().flat_map(|integral| &integral.parameters);
     let outputs = program.outputs.iter().map(|output| &output.expression);

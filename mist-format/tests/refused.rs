@@ -19,7 +19,7 @@ fn refused_programs_are_explained_as_written_beside_them() {
         let lines = LineIndex::new(&text);
         let mut told = String::new();
         for diagnostic in found {
-            let place = lines.place(&text, diagnostic.span.start);
+            let place = lines.location(&text, diagnostic.span.start);
             writeln!(told, "{}:{}: {diagnostic}", place.line, place.column).unwrap();
             writeln!(told, "  at: {}", diagnostic.span.of(&text).escape_debug()).unwrap();
             for note in diagnostic.notes {

@@ -6,7 +6,7 @@ use std::{
 };
 
 use mist_engine::{Control, Failure, Job, Options, OutputStream, RunSummary, Sink};
-use mist_format::program::ColorKey;
+use mist_format::program::ColourKey;
 use rise_bridge::write::Style;
 
 use crate::{
@@ -86,10 +86,10 @@ pub fn run_to_files(
     let mut files = sink.finish()?;
     if let (Some(section), Some(table)) = (job.colour(), &summary.colour) {
         for (key, product) in [
-            (ColorKey::Table, Product::Table),
-            (ColorKey::Spectra, Product::Spectra),
-            (ColorKey::Json, Product::Json),
-            (ColorKey::Plot, Product::Picture),
+            (ColourKey::Table, Product::Table),
+            (ColourKey::Spectra, Product::Spectra),
+            (ColourKey::Json, Product::Json),
+            (ColourKey::Plot, Product::Picture),
         ] {
             if let Some(name) = section.file(key) {
                 let saved = product.save(table, &out.join(name), Style::default())?;

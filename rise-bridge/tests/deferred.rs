@@ -255,13 +255,13 @@ fn what_cannot_be_shaded_is_refused_with_the_line_and_the_reason() {
     };
     assert!(plan(&good, 2).is_ok());
     for (from, to, expected) in [
-        ("directional_light", "omni_light", "line 84: omni_light: only lamps far away"),
+        ("directional_light", "omni_light", "line 84: omni_light: only directional_light"),
         ("color\t\t1 1 1", "color\t\t1 0 0", "not grey"),
         ("direction\t0.0 0.0 1.0", "direction\t0 0 0", "a direction"),
         ("pinhole_camera", "thinlens_camera", "expected one pinhole_camera"),
-        ("up\t\t0 1 0", "up\t\t0 0 1", "along its own up"),
-        ("fov\t\t24.0", "fov\t\t240", "fov is the height"),
-        ("fov\t\t24.0", "fov\t24\n\troll\t3", "roll is not taken into account"),
+        ("up\t\t0 1 0", "up\t\t0 0 1", "up is parallel to the view"),
+        ("fov\t\t24.0", "fov\t\t240", "fov is missing or not an angle"),
+        ("fov\t\t24.0", "fov\t24\n\troll\t3", "roll is not supported"),
         ("lookat\t\t0 0 0", "lookat\t0 0", "lookat 0 0: expected three numbers"),
         ("width\t8", "width\texpr( 8 )", "width of the film"),
         ("# mist: ", "# ", "no material has a comment"),

@@ -139,7 +139,7 @@ fn mistakes_of_a_scene_are_told_with_their_place() {
     assert!(error("film\n").contains("RISE ASCII SCENE"));
     assert!(error("RISE ASCII SCENE 7\n").contains("no material"));
     let wrong = SCENE.replace("filter = p", "filter = x");
-    assert!(error(&wrong).contains("none of s and p"));
+    assert!(error(&wrong).contains("neither s nor p"));
     let wrong = SCENE.replace("sdf.s = 0.5", "sdf.t = 0.5");
     assert!(error(&wrong).contains("no parameter t"), "{}", error(&wrong));
 }

@@ -36,7 +36,7 @@ fn wrong_programs() -> Vec<Case> {
 
 /// `line:column code`, and what stands there.
 fn place(found: &Diagnostic, text: &str) -> String {
-    let at = LineIndex::new(text).place(text, found.span.start);
+    let at = LineIndex::new(text).location(text, found.span.start);
     let shown = found.span.of(text).lines().next().unwrap_or("");
     format!("{}:{} {} `{shown}`", at.line, at.column, found.code)
 }

@@ -7,7 +7,7 @@
 use std::{collections::BTreeMap, fs, path::Path, sync::Arc};
 
 use mist_engine::{Control, MemoryFiles, MemorySink, Options, compile, quirk};
-use mist_format::{Quirk, expr::Function};
+use mist_format::{TextDeviation, expr::Function};
 
 /// A fenced block of a document: what stands behind the fence, and its text.
 struct Block {
@@ -88,7 +88,7 @@ fn the_manual_lists_every_function_with_its_arguments() {
 #[test]
 fn the_manual_lists_every_habit_and_defect_of_nists_program() {
     let manual = document("docs/language.md");
-    let reading = Quirk::ALL.iter().map(|quirk| format!("{quirk:?}"));
+    let reading = TextDeviation::ALL.iter().map(|quirk| format!("{quirk:?}"));
     let running = quirk::Quirk::ALL.iter().map(|quirk| format!("{quirk:?}"));
     for name in reading.chain(running).chain(defects()) {
         assert!(manual.contains(&format!("| `{name}` |")), "{name} has no row");

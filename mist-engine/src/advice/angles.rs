@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use mist_format::{
     Diagnostic,
-    program::{Shape, Text, VariableKind},
+    program::{ApertureShape, SourceText, VariableKind},
 };
 
 use super::{
@@ -43,7 +43,7 @@ pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
 
 fn angle<'j>(
     what: String,
-    text: &'j Text,
+    text: &'j SourceText,
     source: Source<'j>,
     element: Element,
     most: f64,
@@ -61,7 +61,11 @@ fn setting_angles<'j>(plan: &'j IntegralPlan, setting: &'j ApertureSetting) -> V
         angle(what, &setting.text, Source::Expr(&setting.expr), element, most)
     };
     // A cone may stand below the horizon in part; a direction or a corner may not.
-    let polar = if matches!(plan.shape, Shape::Circle | Shape::Annulus) { PI } else { FRAC_PI_2 };
+    let polar = if matches!(plan.shape, ApertureShape::Circle | ApertureShape::Annulus) {
+        PI
+    } else {
+        FRAC_PI_2
+    };
     let direction = |what: &str| {
         vec![
             reading(&format!("the polar angle of {what}"), Element::At(0), polar),
@@ -127,7 +131,7 @@ pub(super) fn functions(job: &Job) -> Vec<Diagnostic> {
 
 /// `sin(45)`, or `sin(t)` where t is in degrees.
 fn of_degrees(
-    text: &Text,
+    text: &SourceText,
     function: &Word<'_>,
     argument: &Word<'_>,
     degrees: &BTreeSet<&str>,
@@ -151,7 +155,7 @@ fn of_degrees(
 }
 
 /// `sind(t*deg)`.
-fn of_radians(text: &Text, function: &Word<'_>, argument: &Word<'_>) -> Option<Diagnostic> {
+fn of_radians(text: &SourceText, function: &Word<'_>, argument: &Word<'_>) -> Option<Diagnostic> {
     let plain = function.text.strip_suffix('d').filter(|f| matches!(*f, "sin" | "cos" | "tan"))?;
     let span = text.part(argument.range.clone()).span();
     let (function, argument) = (function.text, argument.text);
@@ -179,7 +183,7 @@ fn in_degrees(text: &str) -> Vec<&str> {
 }
 
 /// Every expression of the program.
-fn expressions(job: &Job) -> Vec<&Text> {
+fn expressions(job: &Job) -> Vec<&SourceText> {
     let program = &job.program;
     let variables = program.variables.iter().filter(|v| v.kind != VariableKind::Literal);
     let settings = job.integrals.iter().flat_map(|integral| &integral.settings);

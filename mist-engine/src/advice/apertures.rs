@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use mist_format::{Diagnostic, program::Text};
+use mist_format::{Diagnostic, program::SourceText};
 
 use crate::{
     Job,
@@ -132,13 +132,13 @@ impl<'j> Apertures<'j> {
         let message = format!(
             "the run evaluates the model about {evaluations:.1e} times in {steps:.0} steps"
         );
-        let place = self.differential().map_or(self.job.program.sections.vary, Text::span);
+        let place = self.differential().map_or(self.job.program.sections.vary, SourceText::span);
         Diagnostic::warning("sampling/long-run", place, message)
             .help("make differential larger, or the loops shorter")
     }
 
     /// The text that says how much a direction stands for.
-    fn differential(&self) -> Option<&Text> {
+    fn differential(&self) -> Option<&SourceText> {
         self.job.variable_text(self.job.required.differential)
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use mist_format::{Span, program::Text};
+use mist_format::{Span, program::SourceText};
 
 use super::words::{Kind, Word, words};
 use crate::{Job, sweep::LoopPlan};
@@ -39,7 +39,7 @@ pub(super) fn of_variable(job: &Job, name: &str, value: f64) -> Option<Origin> {
 }
 
 /// Follows `element` of `text`, whose value is `value`, to what was written for it.
-pub(super) fn origin(job: &Job, text: &Text, element: Element, value: f64) -> Origin {
+pub(super) fn origin(job: &Job, text: &SourceText, element: Element, value: f64) -> Origin {
     let mut text = text.clone();
     let mut element = Some(element);
     for _ in 0..LONGEST_CHAIN {
@@ -68,7 +68,7 @@ pub(super) fn origin(job: &Job, text: &Text, element: Element, value: f64) -> Or
 }
 
 /// The largest number in an expression, or the whole of it.
-fn largest(text: &Text, all: &[Word<'_>]) -> Origin {
+fn largest(text: &SourceText, all: &[Word<'_>]) -> Origin {
     let number = |word: &Word<'_>| match word.kind {
         Kind::Number(x) => Some((x, word.range.clone())),
         _ => None,
@@ -81,12 +81,12 @@ fn largest(text: &Text, all: &[Word<'_>]) -> Origin {
     }
 }
 
-fn whole(text: &Text) -> Origin {
+fn whole(text: &SourceText) -> Origin {
     Origin { span: text.span(), text: text.as_str().trim().to_owned(), is_literal: false }
 }
 
 /// One element of a list that is written as a list.
-fn part(text: &Text, element: Element) -> Option<Text> {
+fn part(text: &SourceText, element: Element) -> Option<SourceText> {
     let all = words(text.as_str());
     let inner = match &all[..] {
         [open, inner @ .., close] if open.is("(") && close.is(")") && balanced(inner) => inner,
@@ -117,8 +117,8 @@ fn balanced(words: &[Word<'_>]) -> bool {
 }
 
 enum Source {
-    Text(Text),
-    File(Text),
+    Text(SourceText),
+    File(SourceText),
 }
 
 /// What gives the variable `name` its value: a loop, or its entry.
@@ -129,7 +129,7 @@ fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
     Some(match writer {
         Some(LoopPlan::For(plan)) => {
             let statement = &plan.statement;
-            let near = |text: &Text| {
+            let near = |text: &SourceText| {
                 let number = mist_format::number::whole_number(text.as_str().trim());
                 (number.unwrap_or(f64::INFINITY) - value).abs()
             };
@@ -142,7 +142,7 @@ fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
 }
 
 /// Whether an element is made of an angle in degrees, or of π: through all variables it reads.
-pub(super) fn is_converted(job: &Job, text: &Text, element: Element) -> bool {
+pub(super) fn is_converted(job: &Job, text: &SourceText, element: Element) -> bool {
     let part = part(text, element).unwrap_or_else(|| text.clone());
     are_converted(job, vec![part.as_str().to_owned()])
 }
@@ -188,7 +188,7 @@ fn texts_of(job: &Job, name: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (at, entry) in job.entries.iter().enumerate().filter(|(_, e)| e.slot == Some(slot)) {
         let writers = job.loops.iter().filter(|each| each.entries().contains(&at));
-        let bounds: Vec<&Text> = writers
+        let bounds: Vec<&SourceText> = writers
             .flat_map(|each| match each {
                 LoopPlan::For(plan) => vec![&plan.statement.from, &plan.statement.to],
                 LoopPlan::List(plan) => vec![&plan.statement.file],

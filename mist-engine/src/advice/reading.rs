@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use mist_format::{
     Diagnostic,
     expr::{Expr, Stack},
-    program::Text,
+    program::SourceText,
 };
 
 use super::origin::{Element, Origin, is_converted, is_variable_converted, of_variable, origin};
@@ -31,7 +31,7 @@ pub(super) enum Unit {
 pub(super) struct Reading<'j> {
     pub(super) what: String,
     pub(super) unit: Unit,
-    pub(super) text: &'j Text,
+    pub(super) text: &'j SourceText,
     pub(super) source: Source<'j>,
     pub(super) element: Element,
     /// Larger values are not likely.

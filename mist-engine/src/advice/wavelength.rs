@@ -34,7 +34,7 @@ pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
 
 fn reading<'j>(
     what: String,
-    text: &'j mist_format::program::Text,
+    text: &'j mist_format::program::SourceText,
     source: Source<'j>,
 ) -> Reading<'j> {
     let (unit, element) = (Unit::Micrometres, Element::Last);

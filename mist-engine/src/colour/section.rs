@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use mist_format::{
     Diagnostic,
     expr::Expr,
-    program::{Color, ColorKey, Text, Variable},
+    program::{ColourKey, ColourStatements, ProgramVariable, SourceText},
     suggestion::did_you_mean,
 };
 use scattering::Mode;
@@ -36,13 +36,13 @@ pub struct ColourSection {
     pub(crate) frame: String,
     pub(crate) patch: String,
     pub(crate) material: String,
-    pub(crate) place: Text,
-    files: Vec<(ColorKey, String)>,
+    pub(crate) place: SourceText,
+    files: Vec<(ColourKey, String)>,
 }
 
 /// An expression with its place.
 pub(crate) struct Placed {
-    pub(crate) text: Option<Text>,
+    pub(crate) text: Option<SourceText>,
     pub(crate) expr: Expr,
 }
 
@@ -62,7 +62,7 @@ pub(crate) struct Context<'a> {
     pub(crate) names: &'a mut SlotNames,
     pub(crate) mode: Mode,
     pub(crate) entries: &'a [VariableEntry],
-    pub(crate) variables: &'a [Variable],
+    pub(crate) variables: &'a [ProgramVariable],
     pub(crate) loops: &'a [LoopPlan],
     pub(crate) outputs: &'a [OutputPlan],
     pub(crate) library: &'a DataFiles,
@@ -72,12 +72,15 @@ pub(crate) struct Context<'a> {
 }
 
 impl ColourSection {
-    pub(crate) fn compile(color: &Color, context: Context<'_>) -> Result<Self, Vec<Diagnostic>> {
+    pub(crate) fn compile(
+        color: &ColourStatements,
+        context: Context<'_>,
+    ) -> Result<Self, Vec<Diagnostic>> {
         Reader { color, context, faults: Vec::new() }.section()
     }
 
     /// The name of the file that `key` asks for: a table, spectra, JSON or a plot.
-    pub fn file(&self, key: ColorKey) -> Option<&str> {
+    pub fn file(&self, key: ColourKey) -> Option<&str> {
         self.files.iter().find(|(this, _)| *this == key).map(|(_, name)| name.as_str())
     }
 
@@ -94,7 +97,7 @@ impl ColourSection {
 }
 
 struct Reader<'a> {
-    color: &'a Color,
+    color: &'a ColourStatements,
     context: Context<'a>,
     faults: Vec<Diagnostic>,
 }
@@ -103,10 +106,10 @@ impl Reader<'_> {
     fn section(mut self) -> Result<ColourSection, Vec<Diagnostic>> {
         let wavelength = self.wavelength();
         let angles = [
-            ("thetai", ColorKey::Thetai),
-            ("thetas", ColorKey::Thetas),
-            ("phis", ColorKey::Phis),
-            ("omega", ColorKey::Omega),
+            ("thetai", ColourKey::Thetai),
+            ("thetas", ColourKey::Thetas),
+            ("phis", ColourKey::Phis),
+            ("omega", ColourKey::Omega),
         ]
         .map(|(name, key)| self.angle(name, key));
         let spectrum = self.spectrum();
@@ -117,7 +120,7 @@ impl Reader<'_> {
         let wavelength = wavelength.expect("a missing wavelength is a fault");
         let roles = self.roles(&wavelength, &angles);
         let text = |key| self.color.last(key).map(|text| text.as_str().to_owned());
-        let files = [ColorKey::Table, ColorKey::Spectra, ColorKey::Json, ColorKey::Plot];
+        let files = [ColourKey::Table, ColourKey::Spectra, ColourKey::Json, ColourKey::Plot];
         let place = self.color.entries.first().map(|entry| entry.name.clone()).unwrap_or_default();
         Ok(ColourSection {
             wavelength,
@@ -127,18 +130,18 @@ impl Reader<'_> {
             settings: settings.expect("wrong settings are faults"),
             incident: self.context.incident.unwrap_or([1.0, 0.0, 0.0, 0.0]),
             frame: self.context.basis.to_owned(),
-            patch: text(ColorKey::Patch).unwrap_or_else(|| "point".into()),
-            material: text(ColorKey::Material).unwrap_or_else(|| self.context.job.to_owned()),
+            patch: text(ColourKey::Patch).unwrap_or_else(|| "point".into()),
+            material: text(ColourKey::Material).unwrap_or_else(|| self.context.job.to_owned()),
             place,
             files: files.into_iter().filter_map(|key| Some((key, text(key)?))).collect(),
         })
     }
 
-    fn fault(&mut self, code: &'static str, text: &Text, error: &impl std::fmt::Display) {
+    fn fault(&mut self, code: &'static str, text: &SourceText, error: &impl std::fmt::Display) {
         self.faults.push(Diagnostic::error(code, text.span(), error.to_string()));
     }
 
-    fn expr(&mut self, text: &Text) -> Option<Placed> {
+    fn expr(&mut self, text: &SourceText) -> Option<Placed> {
         match Expr::compile(text.as_str(), dialect(self.context.mode)) {
             Ok(mut expr) => {
                 expr.bind(|name| self.context.names.slot(name));
@@ -152,7 +155,7 @@ impl Reader<'_> {
     }
 
     fn wavelength(&mut self) -> Option<Placed> {
-        if let Some(text) = self.color.last(ColorKey::Wavelength) {
+        if let Some(text) = self.color.last(ColourKey::Wavelength) {
             return self.expr(text);
         }
         let message = "COLOR needs the wavelength: an expression in micrometres";
@@ -164,7 +167,7 @@ impl Reader<'_> {
     }
 
     /// The expression of a column; by default the variable of its name, if there is one.
-    fn angle(&mut self, name: &str, key: ColorKey) -> Option<Placed> {
+    fn angle(&mut self, name: &str, key: ColourKey) -> Option<Placed> {
         if let Some(text) = self.color.last(key) {
             return self.expr(text);
         }
@@ -180,7 +183,7 @@ impl Reader<'_> {
 
     fn spectrum(&mut self) -> Vec<u32> {
         let labels = self.color.spectrum();
-        let Some(place) = self.color.last(ColorKey::Spectrum) else {
+        let Some(place) = self.color.last(ColourKey::Spectrum) else {
             let message = "COLOR needs the spectrum: one output label, or four for I, Q, U, V";
             self.faults.push(
                 Diagnostic::error("color/spectrum", self.color.span, message)
@@ -211,10 +214,10 @@ impl Reader<'_> {
     }
 
     fn settings(&mut self) -> Option<ColourSettings> {
-        let quantity = self.word(ColorKey::Quantity, "brdf", Quantity::parse);
-        let observer = self.word(ColorKey::Observer, "CIE1931_2", Observer::parse);
-        let adaptation = self.word(ColorKey::Adaptation, "Bradford", Adaptation::parse);
-        let space = self.word(ColorKey::Space, "sRGB", RgbSpace::parse);
+        let quantity = self.word(ColourKey::Quantity, "brdf", Quantity::parse);
+        let observer = self.word(ColourKey::Observer, "CIE1931_2", Observer::parse);
+        let adaptation = self.word(ColourKey::Adaptation, "Bradford", Adaptation::parse);
+        let space = self.word(ColourKey::Space, "sRGB", RgbSpace::parse);
         let illuminant = self.illuminant();
         let mut filters = Vec::new();
         for text in self.color.filters() {
@@ -239,12 +242,12 @@ impl Reader<'_> {
 
     fn word<T, E: std::fmt::Display>(
         &mut self,
-        key: ColorKey,
+        key: ColourKey,
         default: &str,
         parse: impl Fn(&str) -> Result<T, E>,
     ) -> Option<T> {
         let given = self.color.last(key);
-        match (parse(given.map_or(default, Text::as_str)), given) {
+        match (parse(given.map_or(default, SourceText::as_str)), given) {
             (Ok(value), _) => Some(value),
             (Err(error), Some(text)) => {
                 self.fault("color/name", text, &error);
@@ -256,8 +259,8 @@ impl Reader<'_> {
 
     /// A CIE name, a temperature, `D(temperature)`, or a file with a spectrum.
     fn illuminant(&mut self) -> Option<Illuminant> {
-        let given = self.color.last(ColorKey::Illuminant);
-        let text = given.map_or("D65", Text::as_str);
+        let given = self.color.last(ColourKey::Illuminant);
+        let text = given.map_or("D65", SourceText::as_str);
         let error = match Illuminant::parse(text) {
             Ok(illuminant) => return Some(illuminant),
             Err(error) => error,

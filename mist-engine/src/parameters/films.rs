@@ -59,7 +59,7 @@ impl FilmsState {
                     .map_err(|error| SetError::value(format!("{name}: {error}")))?
             }
         };
-        for optics::Film { material, thickness } in films {
+        for optics::FilmText { material, thickness } in films {
             let (source, column) = TableSource::of_index_text(material, context.library)?;
             let index = IndexState::of_source("film", source, column, context)?.value();
             self.films.push(Film { index, thickness });

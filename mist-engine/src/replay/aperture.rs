@@ -3,7 +3,7 @@
 use mist_format::{
     Diagnostic,
     expr::Value,
-    program::{Shape, Text},
+    program::{ApertureShape, SourceText},
 };
 use scattering::Stokes;
 
@@ -39,7 +39,7 @@ impl ApertureBuilder {
         &mut self,
         key: ApertureParameter,
         value: &Value,
-        text: &Text,
+        text: &SourceText,
     ) -> Result<(), Fault> {
         match key {
             ApertureParameter::Center | ApertureParameter::OuterCenter => {
@@ -64,16 +64,16 @@ impl ApertureBuilder {
         demand: Option<Demand>,
     ) -> StepIntegral {
         let region = match plan.shape {
-            Shape::Differential => Region::Differential { center: self.center },
-            Shape::Circle => Region::around(self.center, self.alpha),
-            Shape::Hemi => Region::Hemi,
-            Shape::Annulus => Region::Annulus {
+            ApertureShape::Differential => Region::Differential { center: self.center },
+            ApertureShape::Circle => Region::around(self.center, self.alpha),
+            ApertureShape::Hemi => Region::Hemi,
+            ApertureShape::Annulus => Region::Annulus {
                 outer_center: self.center,
                 outer_alpha: self.alpha,
                 inner_center: self.inner_center,
                 inner_alpha: self.inner_alpha,
             },
-            Shape::Polygon => {
+            ApertureShape::Polygon => {
                 Region::Polygon { vertices: self.vertices, polarization_center: self.pol_center }
             }
         };
@@ -82,7 +82,7 @@ impl ApertureBuilder {
     }
 }
 
-fn direction(value: &Value, text: &Text) -> Result<(f64, f64), Fault> {
+fn direction(value: &Value, text: &SourceText) -> Result<(f64, f64), Fault> {
     match value.as_slice() {
         [theta, phi, ..] => Ok((*theta, *phi)),
         _ => {
@@ -94,7 +94,7 @@ fn direction(value: &Value, text: &Text) -> Result<(f64, f64), Fault> {
 }
 
 /// The Stokes vector that `text` gave.
-pub(super) fn stokes(value: &Value, text: &Text) -> Result<Stokes, Fault> {
+pub(super) fn stokes(value: &Value, text: &SourceText) -> Result<Stokes, Fault> {
     match value.as_slice() {
         [i, q, u, v, ..] => Ok(Stokes([*i, *q, *u, *v])),
         short => Err(Box::new(

@@ -7,7 +7,7 @@ use mist_format::{
     Diagnostic,
     expr::Expr,
     number,
-    program::{ForLoop, Text},
+    program::{ForLoop, SourceText},
 };
 
 use super::{EntryContent, LoopContext, LoopWrite};
@@ -70,7 +70,7 @@ const KEPT: usize = 1 << 12;
 
 fn bound(
     known: &mut Option<Memo<f64>>,
-    (text, expr): (&Text, &Expr),
+    (text, expr): (&SourceText, &Expr),
     context: &mut LoopContext<'_>,
 ) -> Result<f64, Fault> {
     if let Some(known) = known

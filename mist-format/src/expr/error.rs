@@ -2,7 +2,7 @@
 
 use super::Function;
 use crate::diagnostic::Diagnostic;
-use crate::dialect::Quirk;
+use crate::dialect::TextDeviation;
 use crate::span::Span;
 use crate::suggestion::did_you_mean;
 use crate::table::TableError;
@@ -51,57 +51,57 @@ pub enum ExprErrorKind {
         opening: bool,
     },
     /// NIST's program reads something else than what is written.
-    #[error("{}", refusal(*quirk))]
+    #[error("{}", refusal(*deviation))]
     Refused {
         /// What NIST's program does.
-        quirk: Quirk,
+        deviation: TextDeviation,
     },
     /// More than [`super::MAX_TOKENS`] operands, operators and parentheses.
     #[error("the expression has more than {} operands and operators", super::MAX_TOKENS)]
     TooLong,
 }
 
-fn refusal(quirk: Quirk) -> &'static str {
-    match quirk {
-        Quirk::OperatorLostToBlanks => "too many blanks before an operator",
-        Quirk::AdjacentOperands => "an operator is missing between two values",
-        Quirk::SignLost => "a sign that NIST's program loses",
-        Quirk::SignBindsToNumber => "a minus behind blanks in front of a power",
-        Quirk::NumberJunk => "an unfinished number",
-        Quirk::VectorArithmetic => "arithmetic with a vector of several elements",
-        Quirk::NestedLists => "a list inside a list",
+fn refusal(deviation: TextDeviation) -> &'static str {
+    match deviation {
+        TextDeviation::OperatorLostToBlanks => "too many blanks before an operator",
+        TextDeviation::AdjacentOperands => "an operator is missing between two values",
+        TextDeviation::SignLost => "a sign that NIST's program loses",
+        TextDeviation::SignBindsToNumber => "a minus behind blanks in front of a power",
+        TextDeviation::NumberJunk => "an unfinished number",
+        TextDeviation::VectorArithmetic => "arithmetic with a vector of several elements",
+        TextDeviation::NestedLists => "a list inside a list",
         _ => "a reading of NIST's program that is refused",
     }
 }
 
 /// What NIST's program does, and what to write instead.
-fn explain(quirk: Quirk) -> (&'static str, &'static str) {
-    match quirk {
-        Quirk::OperatorLostToBlanks => (
+fn explain(deviation: TextDeviation) -> (&'static str, &'static str) {
+    match deviation {
+        TextDeviation::OperatorLostToBlanks => (
             "NIST's program overlooks this operator and goes on with the next value alone",
             "leave at most one blank before the operator",
         ),
-        Quirk::AdjacentOperands => (
+        TextDeviation::AdjacentOperands => (
             "NIST's program forgets the first of the two values",
             "write an operator, such as `*`, between them",
         ),
-        Quirk::SignLost => (
+        TextDeviation::SignLost => (
             "NIST's program reads this sign with a number that does not follow, and loses it",
             "write the sign directly before the name, with parentheses behind another sign",
         ),
-        Quirk::SignBindsToNumber => (
+        TextDeviation::SignBindsToNumber => (
             "NIST's program takes the minus into the number first: `  -2^2` is 4, `-2^2` is -4",
             "write (-2)^2 or -(2^2)",
         ),
-        Quirk::NumberJunk => (
+        TextDeviation::NumberJunk => (
             "NIST's program drops what looks like the beginning of a number and reads on",
             "finish the number, or write an operator between it and the name",
         ),
-        Quirk::VectorArithmetic => (
+        TextDeviation::VectorArithmetic => (
             "NIST's program computes with the first element only and appends the others",
             "write the elements out, such as (2*a,2*b)",
         ),
-        Quirk::NestedLists => (
+        TextDeviation::NestedLists => (
             "NIST's program joins the lists in another order than written",
             "write one list without inner parentheses",
         ),
@@ -140,9 +140,9 @@ impl ExprError {
             ExprErrorKind::Parentheses { opening: false } => {
                 found("expr/unopened").help("remove it, or write the opening parenthesis")
             }
-            ExprErrorKind::Refused { quirk } => {
-                let (nist, instead) = explain(*quirk);
-                found("expr/quirk").help(instead).note(nist)
+            ExprErrorKind::Refused { deviation } => {
+                let (nist, instead) = explain(*deviation);
+                found("expr/deviation").help(instead).note(nist)
             }
             ExprErrorKind::TooLong => {
                 found("expr/too-long").help("split it into several variables")
@@ -195,10 +195,10 @@ pub enum EvalErrorKind {
         error: TableError,
     },
     /// A vector of several elements where the sound dialect wants a number.
-    #[error("{}", refusal(*quirk))]
+    #[error("{}", refusal(*deviation))]
     Vector {
         /// What NIST's program does with it.
-        quirk: Quirk,
+        deviation: TextDeviation,
     },
 }
 
@@ -234,9 +234,9 @@ impl EvalError {
                 "files are looked for in the working folder, beside the program and along \
                  SCATMECH; lines of numbers are a table",
             ),
-            EvalErrorKind::Vector { quirk } => {
-                let (nist, instead) = explain(*quirk);
-                found("expr/quirk").help(instead).note(nist)
+            EvalErrorKind::Vector { deviation } => {
+                let (nist, instead) = explain(*deviation);
+                found("expr/deviation").help(instead).note(nist)
             }
         }
     }

@@ -87,8 +87,8 @@ impl Stack {
                     let name = expr.names[name as usize].clone();
                     return Err(EvalErrorKind::UnknownName { name });
                 };
-                if let (Some(quirk), false) = (only_scalar, rest.is_empty()) {
-                    return Err(EvalErrorKind::Vector { quirk });
+                if let (Some(deviation), false) = (only_scalar, rest.is_empty()) {
+                    return Err(EvalErrorKind::Vector { deviation });
                 }
                 self.values.push(signed(*first, negative));
                 self.lists.extend(rest.iter().map(|x| signed(*x, negative)));
@@ -106,8 +106,8 @@ impl Stack {
             }
             Action::Group { negative, only_scalar } => {
                 let frame = self.close();
-                if let (Some(quirk), true) = (only_scalar, self.lists.len() > frame.lists) {
-                    return Err(EvalErrorKind::Vector { quirk });
+                if let (Some(deviation), true) = (only_scalar, self.lists.len() > frame.lists) {
+                    return Err(EvalErrorKind::Vector { deviation });
                 }
                 if negative {
                     self.lists[frame.lists..].iter_mut().for_each(|x| *x = -*x);

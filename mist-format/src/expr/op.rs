@@ -1,7 +1,7 @@
 //! The postfix program of an expression and the table of its operators.
 
 use super::Function;
-use crate::dialect::Quirk;
+use crate::dialect::TextDeviation;
 use crate::span::Span;
 
 /// A binary operator.
@@ -79,7 +79,7 @@ pub(super) enum Action {
     /// Pushes a number.
     Number(f64),
     /// Pushes a variable.
-    Variable { name: u32, negative: bool, only_scalar: Option<Quirk> },
+    Variable { name: u32, negative: bool, only_scalar: Option<TextDeviation> },
     /// Replaces the upper two numbers.
     Binary(Op),
     /// Moves the upper number to the list.
@@ -87,7 +87,7 @@ pub(super) enum Action {
     /// Opens a frame for a parenthesis or for arguments.
     Open,
     /// Closes the frame and pushes what it holds.
-    Group { negative: bool, only_scalar: Option<Quirk> },
+    Group { negative: bool, only_scalar: Option<TextDeviation> },
     /// Closes the frame and pushes the function of what it holds.
     Call { function: Option<Function>, call: u32, negative: bool },
     /// Closes the frame and pushes the look-up in a file.

@@ -7,7 +7,7 @@
 
 use super::op::{Action, Op, Operation};
 use super::{Expr, ExprError, ExprErrorKind, Function, scalar};
-use crate::dialect::{Dialect, Quirk};
+use crate::dialect::{Dialect, TextDeviation};
 use crate::number::{is_blank, number_prefix};
 use crate::span::Span;
 use std::collections::HashMap;
@@ -31,8 +31,8 @@ impl Rules {
         Self { dialect: Dialect::Sound, library: true }
     }
 
-    fn refuses(self, quirk: Quirk) -> bool {
-        quirk.refused_in(self.dialect)
+    fn refuses(self, deviation: TextDeviation) -> bool {
+        deviation.refused_in(self.dialect)
     }
 }
 
@@ -73,7 +73,7 @@ struct OpenFrame {
     /// Steps that may push vectors.
     vectors: Vec<usize>,
     /// Where operators bind these vectors, what NIST's program does with them.
-    binding: Option<Quirk>,
+    binding: Option<TextDeviation>,
 }
 
 impl OpenFrame {
@@ -167,11 +167,11 @@ impl<'t> Scan<'t> {
         if !self.peek().is_some_and(begins_name) {
             return Err(self.no_operand(from, read.has_body()));
         }
-        if read.has_body() && self.rules.refuses(Quirk::NumberJunk) {
-            return Err(self.refused(Quirk::NumberJunk, from, self.at));
+        if read.has_body() && self.rules.refuses(TextDeviation::NumberJunk) {
+            return Err(self.refused(TextDeviation::NumberJunk, from, self.at));
         }
-        if read.sign == Some(b'-') && self.rules.refuses(Quirk::SignLost) {
-            return Err(self.refused(Quirk::SignLost, from, from + 1));
+        if read.sign == Some(b'-') && self.rules.refuses(TextDeviation::SignLost) {
+            return Err(self.refused(TextDeviation::SignLost, from, from + 1));
         }
         self.name(negative, start)
     }
@@ -194,8 +194,8 @@ impl<'t> Scan<'t> {
     fn check_power_of_signed(&self, minus: usize) -> Result<(), ScanError> {
         let behind = self.bytes[self.at..].iter().find(|byte| !is_blank(**byte));
         let odd = self.frame().values == 1 && behind == Some(&b'^');
-        if odd && self.rules.refuses(Quirk::SignBindsToNumber) {
-            return Err(self.refused(Quirk::SignBindsToNumber, minus, self.at));
+        if odd && self.rules.refuses(TextDeviation::SignBindsToNumber) {
+            return Err(self.refused(TextDeviation::SignBindsToNumber, minus, self.at));
         }
         Ok(())
     }
@@ -275,12 +275,12 @@ impl<'t> Scan<'t> {
             let found = self.character_at(next);
             return Err((next, next + 1, ExprErrorKind::InvalidOperator { found }));
         }
-        if is_operator && self.rules.refuses(Quirk::OperatorLostToBlanks) {
-            return Err(self.refused(Quirk::OperatorLostToBlanks, next, next + 1));
+        if is_operator && self.rules.refuses(TextDeviation::OperatorLostToBlanks) {
+            return Err(self.refused(TextDeviation::OperatorLostToBlanks, next, next + 1));
         }
         let is_operand = found.is_some_and(begins_operand);
-        if is_operand && self.rules.refuses(Quirk::AdjacentOperands) {
-            return Err(self.refused(Quirk::AdjacentOperands, next, next + 1));
+        if is_operand && self.rules.refuses(TextDeviation::AdjacentOperands) {
+            return Err(self.refused(TextDeviation::AdjacentOperands, next, next + 1));
         }
         Ok(())
     }
@@ -318,14 +318,16 @@ impl<'t> Scan<'t> {
 
     /// Marks the vectors of a frame whose operators, in the sound dialect, want numbers.
     fn bind_vectors(&mut self) {
-        let Some(quirk) = self.frame().binding.filter(|quirk| self.rules.refuses(*quirk)) else {
+        let Some(deviation) =
+            self.frame().binding.filter(|deviation| self.rules.refuses(*deviation))
+        else {
             return;
         };
         for step in std::mem::take(&mut self.frame_mut().vectors) {
             if let Action::Variable { only_scalar, .. } | Action::Group { only_scalar, .. } =
                 &mut self.steps[step].action
             {
-                *only_scalar = Some(quirk);
+                *only_scalar = Some(deviation);
             }
         }
     }
@@ -345,9 +347,9 @@ impl<'t> Scan<'t> {
         let frame = self.frame_mut();
         frame.pending.push((op, at));
         frame.binding = match (op, frame.binding) {
-            (Op::Comma, None) => Some(Quirk::NestedLists),
+            (Op::Comma, None) => Some(TextDeviation::NestedLists),
             (Op::Comma, bound) => bound,
-            _ => Some(Quirk::VectorArithmetic),
+            _ => Some(TextDeviation::VectorArithmetic),
         };
         Ok(())
     }
@@ -375,8 +377,8 @@ impl<'t> Scan<'t> {
         Ok(())
     }
 
-    fn refused(&self, quirk: Quirk, start: usize, end: usize) -> ScanError {
-        (start, end, ExprErrorKind::Refused { quirk })
+    fn refused(&self, deviation: TextDeviation, start: usize, end: usize) -> ScanError {
+        (start, end, ExprErrorKind::Refused { deviation })
     }
 
     fn frame(&self) -> &OpenFrame {

@@ -3,7 +3,7 @@
 //! The numbers behind `=>` were computed by NIST's MIST 4.22a.
 
 use super::*;
-use crate::dialect::Quirk;
+use crate::dialect::TextDeviation;
 use crate::table::TableError;
 use std::collections::HashMap;
 
@@ -59,9 +59,9 @@ fn assert_vectors(cases: &[(&str, &[f64])]) {
     }
 }
 
-fn refusal(text: &str) -> Option<Quirk> {
+fn refusal(text: &str) -> Option<TextDeviation> {
     match Expr::compile(text, Dialect::Sound) {
-        Err(ExprError { kind: ExprErrorKind::Refused { quirk }, .. }) => Some(quirk),
+        Err(ExprError { kind: ExprErrorKind::Refused { deviation }, .. }) => Some(deviation),
         _ => None,
     }
 }
@@ -211,22 +211,22 @@ fn unknown_names_and_wrong_arguments_are_errors_of_the_evaluation() {
 #[test]
 fn the_sound_dialect_refuses_what_nist_misreads() {
     let cases = [
-        ("2   + a", Quirk::OperatorLostToBlanks),
-        ("a    - b", Quirk::OperatorLostToBlanks),
-        ("2 3", Quirk::AdjacentOperands),
-        ("2(3)", Quirk::AdjacentOperands),
-        ("2a", Quirk::AdjacentOperands),
-        ("(a) (b)", Quirk::AdjacentOperands),
-        ("--x", Quirk::SignLost),
-        ("+-x", Quirk::SignLost),
-        ("  -a", Quirk::SignLost),
-        ("a +   -b", Quirk::SignLost),
-        ("  -2^2", Quirk::SignBindsToNumber),
-        ("1e+x", Quirk::NumberJunk),
-        ("3exp(1)", Quirk::NumberJunk),
+        ("2   + a", TextDeviation::OperatorLostToBlanks),
+        ("a    - b", TextDeviation::OperatorLostToBlanks),
+        ("2 3", TextDeviation::AdjacentOperands),
+        ("2(3)", TextDeviation::AdjacentOperands),
+        ("2a", TextDeviation::AdjacentOperands),
+        ("(a) (b)", TextDeviation::AdjacentOperands),
+        ("--x", TextDeviation::SignLost),
+        ("+-x", TextDeviation::SignLost),
+        ("  -a", TextDeviation::SignLost),
+        ("a +   -b", TextDeviation::SignLost),
+        ("  -2^2", TextDeviation::SignBindsToNumber),
+        ("1e+x", TextDeviation::NumberJunk),
+        ("3exp(1)", TextDeviation::NumberJunk),
     ];
-    for (text, quirk) in cases {
-        assert_eq!(refusal(text), Some(quirk), "{text}");
+    for (text, deviation) in cases {
+        assert_eq!(refusal(text), Some(deviation), "{text}");
     }
     for text in ["2*(1,2,3)", "(1,2),(3,4)", "-v", "v+1", "w,w", "((1,2),3)"] {
         assert!(value(text, Dialect::Sound).is_err(), "{text}");

@@ -1,8 +1,8 @@
 //! The text of optical constants: a number, `(n,k)`, a file or a formula.
 
-use super::table_text::constant;
-use super::{OpticsError, TableText};
-use crate::dialect::{Dialect, Quirk};
+use super::error::OpticsError;
+use super::table_text::{TableText, constant};
+use crate::dialect::{Dialect, TextDeviation};
 use crate::expr::Expr;
 use crate::number::{self, is_blank, number_prefix, whole_number};
 
@@ -20,7 +20,7 @@ pub enum IndexText {
     File {
         /// The file.
         name: String,
-        /// The column of n, from 1; k stands in the next one.
+        /// The column of n, from 1; k is in the next column.
         column: usize,
     },
     /// Expressions of the wavelength in µm: the first is n, the second k.
@@ -42,20 +42,20 @@ impl IndexText {
     /// # Errors
     /// See [`OpticsError`].
     pub fn parse(text: &str, dialect: Dialect) -> Result<Self, OpticsError> {
-        if Quirk::IndexPrefix.applies_in(dialect) {
+        if TextDeviation::IndexPrefix.applies_in(dialect) {
             return match stream(text) {
-                Stream::Constant(n, k) => Ok(Self::Constant { n, k }),
-                Stream::Rest(rest) => Self::table(rest, dialect),
+                StreamReading::Constant(n, k) => Ok(Self::Constant { n, k }),
+                StreamReading::Rest(rest) => Self::table(rest, dialect),
             };
         }
         let whole = text.trim();
         if let Some((n, k)) = whole_number(whole).map(|n| (n, 0.0)).or_else(|| pair(whole)) {
             return Ok(Self::Constant { n, k });
         }
-        if let (Stream::Constant(n, k), Some(_)) = (stream(whole), constant(whole)) {
+        if let (StreamReading::Constant(n, k), Some(_)) = (stream(whole), constant(whole)) {
             let reading = number::list(&[n, k], number::TEXT_DIGITS);
-            let (text, quirk) = (text.to_owned(), Quirk::IndexPrefix);
-            return Err(OpticsError::Refused { text, reading, quirk });
+            let (text, deviation) = (text.to_owned(), TextDeviation::IndexPrefix);
+            return Err(OpticsError::Refused { text, reading, deviation });
         }
         match Self::table(whole, dialect)? {
             Self::File { name, .. } if name.starts_with('(') => {
@@ -77,36 +77,36 @@ impl IndexText {
     }
 }
 
-/// What NIST's streams make of a text: a constant, or what they leave of it.
-enum Stream<'t> {
+/// The reading of a text by NIST's streams: a constant, or the rest of the text.
+enum StreamReading<'t> {
     Constant(f64, f64),
     Rest(&'t str),
 }
 
-/// First a number is tried, then a complex number; each attempt eats what it looked at.
-fn stream(text: &str) -> Stream<'_> {
+/// Reads a number, or else a complex number; each attempt consumes the characters it reads.
+fn stream(text: &str) -> StreamReading<'_> {
     let bytes = text.as_bytes();
     let first = number_prefix(bytes);
     if let Some(n) = first.value {
-        return Stream::Constant(n, 0.0);
+        return StreamReading::Constant(n, 0.0);
     }
     let mut at = first.taken;
     skip_blanks(bytes, &mut at);
     if bytes.get(at) != Some(&b'(') {
         let second = number_prefix(&bytes[at..]);
         return match second.value {
-            Some(n) => Stream::Constant(n, 0.0),
-            None => Stream::Rest(&text[at + second.taken..]),
+            Some(n) => StreamReading::Constant(n, 0.0),
+            None => StreamReading::Rest(&text[at + second.taken..]),
         };
     }
     at += 1;
     match complex(bytes, &mut at) {
-        Some((n, k)) => Stream::Constant(n, k),
-        None => Stream::Rest(&text[at..]),
+        Some((n, k)) => StreamReading::Constant(n, k),
+        None => StreamReading::Rest(&text[at..]),
     }
 }
 
-/// `n)` or `n,k)`; `at` goes behind what was eaten.
+/// `n)` or `n,k)`; `at` moves past the consumed characters.
 fn complex(bytes: &[u8], at: &mut usize) -> Option<(f64, f64)> {
     let n = part(bytes, at)?;
     match bytes.get(*at) {
@@ -125,7 +125,7 @@ fn complex(bytes: &[u8], at: &mut usize) -> Option<(f64, f64)> {
     }
 }
 
-/// A number and the blanks behind it.
+/// A number and the blanks after it.
 fn part(bytes: &[u8], at: &mut usize) -> Option<f64> {
     let read = number_prefix(&bytes[*at..]);
     *at += read.taken;
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn nist_reads_prefixes_and_eats_what_looks_like_a_number() {
+    fn nist_reads_prefixes_and_consumes_incomplete_numbers() {
         assert_eq!(compat("1.5+0.3"), constant(1.5, 0.0));
         assert_eq!(compat("1.5abc"), constant(1.5, 0.0));
         assert_eq!(compat("2gold.txt"), constant(2.0, 0.0));

@@ -1,7 +1,8 @@
 //! The text of a film stack: `material thickness material thickness …`.
 
-use super::{IndexText, OpticsError};
-use crate::dialect::{Dialect, Quirk};
+use super::error::OpticsError;
+use super::index::IndexText;
+use crate::dialect::{Dialect, TextDeviation};
 use crate::number::{number_prefix, whole_number};
 use crate::table;
 
@@ -9,14 +10,14 @@ use crate::table;
 #[derive(Clone, Debug, PartialEq)]
 pub enum StackText {
     /// Films, the one next to the substrate first; there may be none.
-    Films(Vec<Film>),
+    Films(Vec<FilmText>),
     /// The name of a file with such films.
     File(String),
 }
 
 /// One film.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Film {
+pub struct FilmText {
     /// Its material.
     pub material: IndexText,
     /// Its thickness in µm.
@@ -24,10 +25,10 @@ pub struct Film {
 }
 
 impl StackText {
-    /// Reads the text of a stack parameter: nothing, one word that names a file, or films.
+    /// Reads the text of a stack parameter: empty, one word that names a file, or films.
     ///
     /// # Errors
-    /// A material without a thickness, a thickness that is no number; sound: one that only
+    /// A material without a thickness, a thickness that is not a number; sound: one that only
     /// begins with a number or is negative.
     pub fn parse(text: &str, dialect: Dialect) -> Result<Self, OpticsError> {
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
@@ -41,7 +42,7 @@ impl StackText {
     ///
     /// # Errors
     /// As for [`StackText::parse`], and negative thicknesses.
-    pub fn parse_file(text: &str, dialect: Dialect) -> Result<Vec<Film>, OpticsError> {
+    pub fn parse_file(text: &str, dialect: Dialect) -> Result<Vec<FilmText>, OpticsError> {
         if let Some(line) = table::open_comment(text) {
             return Err(OpticsError::OpenComment { line });
         }
@@ -54,11 +55,11 @@ impl StackText {
     }
 }
 
-fn films(words: &[&str], dialect: Dialect) -> Result<Vec<Film>, OpticsError> {
+fn films(words: &[&str], dialect: Dialect) -> Result<Vec<FilmText>, OpticsError> {
     let film = |pair: &[&str]| {
         let material = IndexText::parse(pair[0], dialect)?;
         let thickness = thickness(pair.get(1).copied().unwrap_or(""), dialect)?;
-        Ok(Film { material, thickness })
+        Ok(FilmText { material, thickness })
     };
     words.chunks(2).map(film).collect()
 }
@@ -66,15 +67,15 @@ fn films(words: &[&str], dialect: Dialect) -> Result<Vec<Film>, OpticsError> {
 fn thickness(text: &str, dialect: Dialect) -> Result<f64, OpticsError> {
     let invalid = || OpticsError::Thickness { text: text.into() };
     let read = number_prefix(text.as_bytes()).value.ok_or_else(invalid)?;
-    let refused = |quirk| {
+    let refused = |deviation| {
         let reading = read.to_string();
-        Err(OpticsError::Refused { text: text.into(), reading, quirk })
+        Err(OpticsError::Refused { text: text.into(), reading, deviation })
     };
-    if whole_number(text).is_none() && Quirk::NumberPrefix.refused_in(dialect) {
-        return refused(Quirk::NumberPrefix);
+    if whole_number(text).is_none() && TextDeviation::NumberPrefix.refused_in(dialect) {
+        return refused(TextDeviation::NumberPrefix);
     }
-    if read < 0.0 && Quirk::NegativeThickness.refused_in(dialect) {
-        return refused(Quirk::NegativeThickness);
+    if read < 0.0 && TextDeviation::NegativeThickness.refused_in(dialect) {
+        return refused(TextDeviation::NegativeThickness);
     }
     Ok(read)
 }

@@ -1,7 +1,7 @@
 //! The text of a Table: a constant, a formula of one variable, or columns of a file.
 
-use super::OpticsError;
-use crate::dialect::{Dialect, Quirk};
+use super::error::OpticsError;
+use crate::dialect::{Dialect, TextDeviation};
 use crate::expr::{Expr, NoNames, Stack, Value};
 
 /// A Table parameter as text.
@@ -21,7 +21,7 @@ pub enum TableText {
     File {
         /// The file.
         name: String,
-        /// The column behind the `!`, from 1.
+        /// The column after the `!`, from 1.
         column: Option<usize>,
     },
 }
@@ -30,16 +30,20 @@ impl TableText {
     /// Reads the text of a Table. NIST takes its first word.
     ///
     /// # Errors
-    /// No text, a formula that is no expression; sound: more than one word.
+    /// No text, a formula that is not an expression; sound: more than one word.
     pub fn parse(text: &str, dialect: Dialect) -> Result<Self, OpticsError> {
         if let Some(value) = constant(text) {
             return Ok(Self::Constant(value));
         }
         let mut words = text.split_ascii_whitespace();
         let word = words.next().ok_or(OpticsError::Empty)?;
-        if words.next().is_some() && Quirk::NumberPrefix.refused_in(dialect) {
+        if words.next().is_some() && TextDeviation::NumberPrefix.refused_in(dialect) {
             let (text, reading) = (text.to_owned(), word.to_owned());
-            return Err(OpticsError::Refused { text, reading, quirk: Quirk::NumberPrefix });
+            return Err(OpticsError::Refused {
+                text,
+                reading,
+                deviation: TextDeviation::NumberPrefix,
+            });
         }
         if let Some((variable, formula)) = word.strip_prefix('@').and_then(|w| w.split_once(':')) {
             let columns = Expr::compile_library(formula)
@@ -47,7 +51,7 @@ impl TableText {
             return Ok(Self::Formula { variable: variable.into(), columns });
         }
         let parts = word.rsplit_once('!');
-        // Four bytes: the columns behind it can be counted, too.
+        // Four bytes, so that the next columns are in the range of usize.
         let number = |column: &str| column.parse::<u32>().ok().map(|column| column as usize);
         let numbered = parts.and_then(|(name, column)| Some((name, number(column)?)));
         Ok(match numbered {

@@ -1,6 +1,7 @@
-//! What a readable program must have, told without running it.
+//! Checks of a readable program that need no run.
 
-use super::{Loop, Program, VariableKind};
+use super::limits::MAX_ERRORS;
+use super::tree::{Loop, Program, VariableKind};
 use crate::diagnostic::Diagnostic;
 use crate::span::Span;
 use crate::suggestion::did_you_mean;
@@ -62,9 +63,8 @@ fn unknown_loop_variables(program: &Program) -> Vec<Diagnostic> {
         Loop::List(_) => None,
     });
     let folded: HashSet<String> = known().map(str::to_ascii_lowercase).collect();
-    let unknown = fors
-        .filter(|name| !folded.contains(&name.as_str().to_ascii_lowercase()))
-        .take(super::parse::MAX_ERRORS);
+    let unknown =
+        fors.filter(|name| !folded.contains(&name.as_str().to_ascii_lowercase())).take(MAX_ERRORS);
     let found = unknown.map(|name| {
         let message = format!("invalid variable `{name}`: a loop can only change a variable");
         let with_sigil = known().find(|known| {

@@ -1,17 +1,21 @@
-//! Comparing programs that say the same in different layouts.
+//! Comparison of programs in different layouts.
 
-use super::{
-    Color, Comment, FilesEntry, FilesSection, ForLoop, Integral, IntegralParameter, ListLoop, Loop,
-    Output, Program, Sections, Text, Variable,
-};
+use super::colour::ColourStatements;
+use super::files::{FilesEntry, FilesSection};
+use super::integral::{Integral, IntegralParameter};
+use super::text::SourceText;
+use super::tree::{Comment, ForLoop, ListLoop, Loop, Output, Program, ProgramVariable, Sections};
 use crate::span::Span;
 
 impl Program {
-    /// The same program without any places, to compare programs that are laid out differently.
-    pub fn without_places(self) -> Self {
-        let plain = Text::without_place;
-        let variable =
-            |v: Variable| Variable { name: plain(v.name), value: plain(v.value), kind: v.kind };
+    /// The program without locations, for the comparison of programs in different layouts.
+    pub fn without_locations(self) -> Self {
+        let plain = SourceText::without_location;
+        let variable = |v: ProgramVariable| ProgramVariable {
+            name: plain(v.name),
+            value: plain(v.value),
+            kind: v.kind,
+        };
         let output = |o: Output| Output {
             number: plain(o.number),
             label: plain(o.label),
@@ -27,11 +31,11 @@ impl Program {
         Self {
             model: plain(self.model),
             variables: self.variables.into_iter().map(variable).collect(),
-            loops: self.loops.into_iter().map(Loop::without_places).collect(),
-            integrals: self.integrals.into_iter().map(Integral::without_places).collect(),
+            loops: self.loops.into_iter().map(Loop::without_locations).collect(),
+            integrals: self.integrals.into_iter().map(Integral::without_locations).collect(),
             outputs: self.outputs.into_iter().map(output).collect(),
             files: FilesSection { entries },
-            color: self.color.map(Color::without_places),
+            colour: self.colour.map(ColourStatements::without_locations),
             comments: self
                 .comments
                 .into_iter()
@@ -45,8 +49,8 @@ impl Program {
 }
 
 impl Loop {
-    fn without_places(self) -> Self {
-        let plain = Text::without_place;
+    fn without_locations(self) -> Self {
+        let plain = SourceText::without_location;
         let span = Span::default();
         match self {
             Self::For(each) => Self::For(Box::new(ForLoop {
@@ -62,8 +66,8 @@ impl Loop {
 }
 
 impl Integral {
-    fn without_places(self) -> Self {
-        let plain = Text::without_place;
+    fn without_locations(self) -> Self {
+        let plain = SourceText::without_location;
         let parameter = |each: IntegralParameter| IntegralParameter {
             name: plain(each.name),
             value: plain(each.value),

@@ -1,14 +1,15 @@
-//! The two readers that NIST's program has, over a text without its comments.
+//! Tokens and names, as NIST's program reads them, in a text without comments.
 //!
 //! A comment goes from `;` to the end of the line, also inside quotes. A *token* is a quoted
 //! text or everything up to white space; a *name* is everything up to white space or `=`.
 
-use super::{Comment, Text};
+use super::text::SourceText;
+use super::tree::Comment;
 use crate::number::is_blank;
 use crate::span::Span;
 
-/// How many words, numbers and signs `text` has outside of its comments: a measure of the work
-/// that a program makes before it runs.
+/// The number of words, numbers and signs in `text` without its comments: a measure of the work
+/// of a program before it runs.
 pub fn count_tokens(text: &str) -> usize {
     let is_word = |byte: u8| byte.is_ascii_alphanumeric() || b"_.".contains(&byte) || byte >= 0x80;
     let (mut count, mut in_word) = (0, false);
@@ -24,9 +25,9 @@ pub fn count_tokens(text: &str) -> usize {
     count
 }
 
-/// Why reading cannot go on. NIST's program waits forever in each of these cases.
+/// The text ends where more is expected. NIST's program waits forever in each of these cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stop {
+pub(super) enum UnexpectedEnd {
     /// The text ends.
     End,
     /// The text ends inside the quotes that open here.
@@ -35,37 +36,37 @@ pub(super) enum Stop {
     OpenComment(Span),
 }
 
-/// A token with what was odd about it.
+/// A token with its irregularities.
 #[derive(Clone, Debug)]
-pub(super) struct Token {
-    pub(super) text: Text,
+pub(super) struct LexedToken {
+    pub(super) text: SourceText,
     /// Comments inside the quotes.
     pub(super) comments: Vec<Span>,
 }
 
-/// A name with what was odd about it.
+/// A name with its irregularities.
 #[derive(Clone, Debug)]
-pub(super) struct Name {
-    pub(super) text: Text,
+pub(super) struct LexedName {
+    pub(super) text: SourceText,
     /// An equal sign before it.
     pub(super) equals: Option<Span>,
 }
 
 /// Reads a text from the beginning to the end.
 #[derive(Debug)]
-pub(super) struct Reader<'t> {
+pub(super) struct Lexer<'t> {
     text: &'t str,
     at: usize,
     comments: Vec<Comment>,
     open_comment: Option<Span>,
 }
 
-impl<'t> Reader<'t> {
+impl<'t> Lexer<'t> {
     pub(super) fn new(text: &'t str) -> Self {
         Self { text, at: 0, comments: Vec::new(), open_comment: None }
     }
 
-    /// The text behind the place reached.
+    /// The text after the current position.
     pub(super) fn rest(&self) -> &'t str {
         &self.text[self.at..]
     }
@@ -74,7 +75,7 @@ impl<'t> Reader<'t> {
         self.at
     }
 
-    /// Goes back (or on) to a place; comments behind it will be read again.
+    /// Moves to a position; comments after it are read again.
     pub(super) fn go_to(&mut self, at: usize) {
         self.at = at;
         self.open_comment = None;
@@ -85,7 +86,7 @@ impl<'t> Reader<'t> {
         self.comments
     }
 
-    /// Skips white space and comments; says whether something follows.
+    /// Skips white space and comments; true if something follows.
     pub(super) fn skip_blanks(&mut self) -> bool {
         while self.peek().is_some_and(is_blank) {
             self.at += 1;
@@ -94,7 +95,7 @@ impl<'t> Reader<'t> {
     }
 
     /// Reads a token.
-    pub(super) fn token(&mut self) -> Result<Token, Stop> {
+    pub(super) fn token(&mut self) -> Result<LexedToken, UnexpectedEnd> {
         if !self.skip_blanks() {
             return Err(self.stop());
         }
@@ -102,11 +103,11 @@ impl<'t> Reader<'t> {
             return self.quoted();
         }
         let text = self.word(is_blank);
-        Ok(Token { text, comments: Vec::new() })
+        Ok(LexedToken { text, comments: Vec::new() })
     }
 
     /// Reads a name.
-    pub(super) fn name(&mut self) -> Result<Name, Stop> {
+    pub(super) fn name(&mut self) -> Result<LexedName, UnexpectedEnd> {
         let mut equals = None;
         while let Some(byte) = self.peek().filter(|byte| is_blank(*byte) || *byte == b'=') {
             if byte == b'=' && equals.is_none() {
@@ -117,11 +118,11 @@ impl<'t> Reader<'t> {
         if self.peek().is_none() {
             return Err(self.stop());
         }
-        Ok(Name { text: self.word(|byte| is_blank(byte) || byte == b'='), equals })
+        Ok(LexedName { text: self.word(|byte| is_blank(byte) || byte == b'='), equals })
     }
 
-    /// Goes behind the next `=`. What stands before it is ignored; its place, if there is any.
-    pub(super) fn equals(&mut self) -> Result<Option<Span>, Stop> {
+    /// Moves past the next `=`; gives the span of other text before it, which is ignored.
+    pub(super) fn equals(&mut self) -> Result<Option<Span>, UnexpectedEnd> {
         let mut junk: Option<Span> = None;
         while let Some(byte) = self.peek() {
             let here = Span::new(self.at, self.at + 1);
@@ -135,21 +136,21 @@ impl<'t> Reader<'t> {
         Err(self.stop())
     }
 
-    /// Why nothing follows.
-    pub(super) fn stop(&self) -> Stop {
-        self.open_comment.map_or(Stop::End, Stop::OpenComment)
+    /// The reason why nothing follows.
+    pub(super) fn stop(&self) -> UnexpectedEnd {
+        self.open_comment.map_or(UnexpectedEnd::End, UnexpectedEnd::OpenComment)
     }
 
     /// Everything up to a byte that ends it, or to a comment, which reaches to a line end.
-    fn word(&mut self, ends: impl Fn(u8) -> bool) -> Text {
+    fn word(&mut self, ends: impl Fn(u8) -> bool) -> SourceText {
         let start = self.at;
         let rest = &self.text.as_bytes()[start..];
         let len = rest.iter().position(|byte| ends(*byte) || *byte == b';').unwrap_or(rest.len());
         self.at += len;
-        Text::new(&self.text[start..self.at], start)
+        SourceText::new(&self.text[start..self.at], start)
     }
 
-    fn quoted(&mut self) -> Result<Token, Stop> {
+    fn quoted(&mut self) -> Result<LexedToken, UnexpectedEnd> {
         let quote = self.at;
         self.at += 1;
         let mut text = String::new();
@@ -158,13 +159,13 @@ impl<'t> Reader<'t> {
         let mut piece = self.at;
         loop {
             match self.text.as_bytes().get(self.at) {
-                None => return Err(Stop::OpenQuote(Span::new(quote, quote + 1))),
+                None => return Err(UnexpectedEnd::OpenQuote(Span::new(quote, quote + 1))),
                 Some(b'"') => break,
                 Some(b';') => {
                     text.push_str(&self.text[piece..self.at]);
                     let from = self.at;
                     if self.peek().is_none() {
-                        return Err(Stop::OpenQuote(Span::new(quote, quote + 1)));
+                        return Err(UnexpectedEnd::OpenQuote(Span::new(quote, quote + 1)));
                     }
                     comments.push(Span::new(from, self.at));
                     piece = self.at;
@@ -175,10 +176,13 @@ impl<'t> Reader<'t> {
         }
         text.push_str(&self.text[piece..self.at]);
         self.at += 1;
-        Ok(Token { text: Text::read(text, Span::new(quote, self.at), true, pieces), comments })
+        Ok(LexedToken {
+            text: SourceText::read(text, Span::new(quote, self.at), true, pieces),
+            comments,
+        })
     }
 
-    /// The next byte that is in no comment; comments before it are noted.
+    /// The next byte outside of comments; comments before it are recorded.
     fn peek(&mut self) -> Option<u8> {
         let bytes = self.text.as_bytes();
         if bytes.get(self.at) == Some(&b';') {
@@ -210,8 +214,8 @@ mod tests {
         assert_eq!(count_tokens(" \n ; nothing"), 0);
     }
 
-    fn tokens(text: &str) -> (Vec<String>, Stop) {
-        let mut reader = Reader::new(text);
+    fn tokens(text: &str) -> (Vec<String>, UnexpectedEnd) {
+        let mut reader = Lexer::new(text);
         let mut found = Vec::new();
         loop {
             match reader.token() {
@@ -225,14 +229,14 @@ mod tests {
     fn a_token_is_quoted_or_ends_at_white_space() {
         let (found, stop) = tokens("a \"b c\"d e\"f;x\n\"\"");
         assert_eq!(found, ["a", "b c", "d", "e\"f", ""]);
-        assert_eq!(stop, Stop::End);
+        assert_eq!(stop, UnexpectedEnd::End);
     }
 
     #[test]
     fn a_comment_cuts_words_and_strings_alike() {
         assert_eq!(tokens("a;b\nc").0, ["a", "c"]);
         let text = "\"a;b\nc\" ";
-        let token = Reader::new(text).token().unwrap();
+        let token = Lexer::new(text).token().unwrap();
         assert_eq!(token.text.as_str(), "a\nc");
         assert_eq!(token.comments[0].of(text), ";b");
         assert_eq!(token.text.locate(Span::new(2, 3)).of(text), "c");
@@ -240,7 +244,7 @@ mod tests {
 
     #[test]
     fn names_end_at_equal_signs_and_skip_them() {
-        let mut reader = Reader::new(" = = a=b c");
+        let mut reader = Lexer::new(" = = a=b c");
         let name = reader.name().unwrap();
         assert_eq!((name.text.as_str(), name.equals), ("a", Some(Span::new(1, 2))));
         assert_eq!(reader.equals(), Ok(None));
@@ -248,22 +252,22 @@ mod tests {
     }
 
     #[test]
-    fn junk_before_an_equal_sign_has_a_place() {
+    fn junk_before_an_equal_sign_has_a_span() {
         let text = "c junk words = 5";
-        let mut reader = Reader::new(text);
+        let mut reader = Lexer::new(text);
         reader.name().unwrap();
         assert_eq!(reader.equals().unwrap().unwrap().of(text), "junk words");
     }
 
     #[test]
-    fn what_never_ends_is_told() {
-        assert_eq!(tokens("\"ab").1, Stop::OpenQuote(Span::new(0, 1)));
-        assert_eq!(tokens("a ;b").1, Stop::OpenComment(Span::new(2, 4)));
+    fn open_quotes_and_comments_are_reported() {
+        assert_eq!(tokens("\"ab").1, UnexpectedEnd::OpenQuote(Span::new(0, 1)));
+        assert_eq!(tokens("a ;b").1, UnexpectedEnd::OpenComment(Span::new(2, 4)));
     }
 
     #[test]
     fn comments_are_kept_without_line_ends() {
-        let mut reader = Reader::new("; one\r\na ; two\n");
+        let mut reader = Lexer::new("; one\r\na ; two\n");
         while reader.token().is_ok() {}
         let texts: Vec<_> = reader.into_comments().into_iter().map(|c| c.text).collect();
         assert_eq!(texts, [" one", " two"]);

@@ -1,10 +1,13 @@
-//! Tree to text: the layout of `mist fmt`.
+//! Prints a program in the layout of `mist fmt`.
 //!
 //! One entry per line, four blanks per level, one blank line between sections. Texts are
-//! printed as they are, comments where they stood. Reading the printed text gives the same
+//! printed unchanged, comments at their positions. Reading the printed text gives the same
 //! program, and printing that gives the same text.
 
-use super::{Color, Integral, Loop, Output, Program, Text};
+use super::colour::ColourStatements;
+use super::integral::Integral;
+use super::text::SourceText;
+use super::tree::{Loop, Output, Program};
 use crate::span::Span;
 use std::fmt;
 
@@ -20,16 +23,16 @@ impl fmt::Display for Program {
     }
 }
 
-/// A line to print, and what it stands for in the text that was read.
-struct Line {
+/// A line to print, with its span in the text that was read.
+struct PrintedLine {
     text: String,
     level: usize,
     span: Span,
-    role: Role,
+    role: LineRole,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Role {
+enum LineRole {
     /// `MODEL = …` or the cue of a section.
     Cue,
     Entry,
@@ -38,10 +41,11 @@ enum Role {
     LastEnd,
 }
 
-fn lines(program: &Program) -> Vec<Line> {
+fn lines(program: &Program) -> Vec<PrintedLine> {
     let sections = &program.sections;
     let model = format!("MODEL = {}", quote(&program.model));
-    let mut lines = vec![Line { text: model, level: 0, span: sections.model, role: Role::Cue }];
+    let mut lines =
+        vec![PrintedLine { text: model, level: 0, span: sections.model, role: LineRole::Cue }];
     let variables = program.variables.iter().map(|v| assignment(1, &v.name, &v.value)).collect();
     section(&mut lines, "VARIABLES:", sections.variables, variables);
     section(&mut lines, "VARY:", sections.vary, program.loops.iter().map(loop_line).collect());
@@ -52,34 +56,34 @@ fn lines(program: &Program) -> Vec<Line> {
     let files = &program.files.entries;
     let files = files.iter().map(|entry| assignment(1, &entry.name, &entry.value)).collect();
     section(&mut lines, "FILES:", sections.files, files);
-    if let Some(color) = &program.color {
-        section(&mut lines, "COLOR:", sections.color, color_lines(color));
+    if let Some(colour) = &program.colour {
+        section(&mut lines, "COLOR:", sections.colour, colour_lines(colour));
     }
     if let Some(last) = lines.last_mut() {
-        last.role = Role::LastEnd;
+        last.role = LineRole::LastEnd;
     }
     lines
 }
 
 /// The cue of a section, its entries and its END.
-fn section(lines: &mut Vec<Line>, cue: &str, span: Span, entries: Vec<Line>) {
+fn section(lines: &mut Vec<PrintedLine>, cue: &str, span: Span, entries: Vec<PrintedLine>) {
     let start = Span::new(span.start, span.start + cue.len());
-    lines.push(Line { text: cue.into(), level: 0, span: start, role: Role::Cue });
+    lines.push(PrintedLine { text: cue.into(), level: 0, span: start, role: LineRole::Cue });
     lines.extend(entries);
     lines.push(end(0, span));
 }
 
-fn end(level: usize, span: Span) -> Line {
+fn end(level: usize, span: Span) -> PrintedLine {
     let span = Span::new(span.end.saturating_sub("END".len()), span.end);
-    Line { text: "END".into(), level, span, role: Role::End }
+    PrintedLine { text: "END".into(), level, span, role: LineRole::End }
 }
 
-fn assignment(level: usize, name: &Text, value: &Text) -> Line {
+fn assignment(level: usize, name: &SourceText, value: &SourceText) -> PrintedLine {
     let text = format!("{name} = {}", quote(value));
-    Line { text, level, span: name.span().to(value.span()), role: Role::Entry }
+    PrintedLine { text, level, span: name.span().to(value.span()), role: LineRole::Entry }
 }
 
-fn loop_line(each: &Loop) -> Line {
+fn loop_line(each: &Loop) -> PrintedLine {
     let text = match each {
         Loop::For(each) => {
             let [variable, from, to, by] =
@@ -88,32 +92,32 @@ fn loop_line(each: &Loop) -> Line {
         }
         Loop::List(list) => format!("LIST {}", quote(&list.file)),
     };
-    Line { text, level: 1, span: each.span(), role: Role::Entry }
+    PrintedLine { text, level: 1, span: each.span(), role: LineRole::Entry }
 }
 
-fn integral_lines(integral: &Integral) -> Vec<Line> {
+fn integral_lines(integral: &Integral) -> Vec<PrintedLine> {
     let mut lines = vec![assignment(1, &integral.name, &integral.shape_text)];
     lines.extend(integral.parameters.iter().map(|each| assignment(2, &each.name, &each.value)));
     lines.push(end(1, integral.span));
     lines
 }
 
-fn output_line(output: &Output) -> Line {
+fn output_line(output: &Output) -> PrintedLine {
     let label = if output.has_label { format!("{}=", output.label) } else { String::new() };
     let mark = if output.expression.is_quoted() { "\"" } else { "" };
     let text = format!("{} {mark}{label}{}{mark}", quote(&output.number), output.expression);
     let span = output.number.span().to(output.expression.span());
     // The closing quotes are not part of the expression.
     let span = Span::new(span.start, span.end + mark.len());
-    Line { text, level: 1, span, role: Role::Entry }
+    PrintedLine { text, level: 1, span, role: LineRole::Entry }
 }
 
-fn color_lines(color: &Color) -> Vec<Line> {
-    color.entries.iter().map(|entry| assignment(1, &entry.name, &entry.value)).collect()
+fn colour_lines(colour: &ColourStatements) -> Vec<PrintedLine> {
+    colour.entries.iter().map(|entry| assignment(1, &entry.name, &entry.value)).collect()
 }
 
-/// The text as it is written in a program.
-fn quote(text: &Text) -> String {
+/// The text in the syntax of a program.
+fn quote(text: &SourceText) -> String {
     if text.is_quoted() { format!("\"{text}\"") } else { text.to_string() }
 }
 
@@ -121,21 +125,21 @@ struct Printer<'p, 'f, 'w> {
     program: &'p Program,
     /// The next comment.
     comment: usize,
-    /// Where, in the text that was read, the last printed thing ends.
+    /// The end of the last printed item in the text that was read.
     end: usize,
     f: &'f mut fmt::Formatter<'w>,
 }
 
 impl<'p> Printer<'p, '_, '_> {
-    /// Prints a line with the comments before it and behind it; the next line begins at `next`.
-    fn line(&mut self, line: &Line, next: usize) -> fmt::Result {
+    /// Prints a line with the comments before and after it; the next line begins at `next`.
+    fn line(&mut self, line: &PrintedLine, next: usize) -> fmt::Result {
         let first = self.end == 0;
-        let level = if matches!(line.role, Role::End | Role::LastEnd) {
+        let level = if matches!(line.role, LineRole::End | LineRole::LastEnd) {
             line.level + 1
         } else {
             line.level
         };
-        let mut apart = line.role == Role::Cue && !first;
+        let mut apart = line.role == LineRole::Cue && !first;
         while let Some(comment) = self.next_comment(line.span.end) {
             if apart || self.blank_line_before(comment.start) {
                 writeln!(self.f)?;
@@ -144,29 +148,33 @@ impl<'p> Printer<'p, '_, '_> {
             writeln!(self.f, "{:1$};{text}", "", 4 * level, text = comment.text)?;
             self.end = comment.end;
         }
-        let gap = line.role == Role::Entry && self.blank_line_before(line.span.start);
+        let gap = line.role == LineRole::Entry && self.blank_line_before(line.span.start);
         if apart || gap {
             writeln!(self.f)?;
         }
         write!(self.f, "{:1$}{text}", "", 4 * line.level, text = line.text)?;
         self.end = line.span.end.max(self.end);
-        // Behind its own line, a comment stays there.
+        // A comment at the end of a line stays there.
         let behind = self.program.comments.get(self.comment);
         if let Some(comment) = behind.filter(|c| !c.own_line && c.span.start < next) {
             write!(self.f, " ;{}", comment.text)?;
             self.end = comment.span.end;
             self.comment += 1;
         }
-        if line.role == Role::LastEnd { Ok(()) } else { writeln!(self.f) }
+        if line.role == LineRole::LastEnd { Ok(()) } else { writeln!(self.f) }
     }
 
-    fn next_comment(&mut self, before: usize) -> Option<Before<'p>> {
+    fn next_comment(&mut self, before: usize) -> Option<PendingComment<'p>> {
         let comment = self.program.comments.get(self.comment)?;
         if comment.span.start >= before {
             return None;
         }
         self.comment += 1;
-        Some(Before { text: &comment.text, start: comment.span.start, end: comment.span.end })
+        Some(PendingComment {
+            text: &comment.text,
+            start: comment.span.start,
+            end: comment.span.end,
+        })
     }
 
     fn blank_line_before(&self, start: usize) -> bool {
@@ -176,8 +184,8 @@ impl<'p> Printer<'p, '_, '_> {
     }
 }
 
-/// A comment that stands before or inside a line.
-struct Before<'p> {
+/// A comment before or inside a line.
+struct PendingComment<'p> {
     text: &'p str,
     start: usize,
     end: usize,

@@ -1,4 +1,4 @@
-//! A word of a program together with the place where it stands.
+//! A text of a program with its location.
 
 use crate::diagnostic::{Diagnostic, Note};
 use crate::span::Span;
@@ -8,7 +8,7 @@ use crate::span::Span;
 /// The text may differ from what the span covers: quotes are not part of it, and a comment
 /// inside quotes is cut out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Text {
+pub struct SourceText {
     text: String,
     span: Span,
     quoted: bool,
@@ -16,7 +16,7 @@ pub struct Text {
     pieces: Vec<(usize, usize)>,
 }
 
-impl Text {
+impl SourceText {
     /// `text` that begins at the byte `at` of the program.
     pub fn new(text: impl Into<String>, at: usize) -> Self {
         let text = text.into();
@@ -24,8 +24,8 @@ impl Text {
         Self { text, span, quoted: false, pieces: vec![(0, at)] }
     }
 
-    /// A text with all that the reader knows: `span` covers the quotes too; `pieces` are the
-    /// (offset in the text, offset in the program) where it goes on after a comment.
+    /// A text with its location: `span` includes the quotes; `pieces` are the (offset in the text,
+    /// offset in the program) of its parts between comments.
     pub(crate) fn read(
         text: String,
         span: Span,
@@ -35,8 +35,8 @@ impl Text {
         Self { text, span, quoted, pieces }
     }
 
-    /// The same text without a place, to compare programs that are written differently.
-    pub fn without_place(self) -> Self {
+    /// The text without its location, for the comparison of programs in different layouts.
+    pub fn without_location(self) -> Self {
         Self { span: Span::default(), pieces: vec![(0, 0)], ..self }
     }
 
@@ -45,24 +45,24 @@ impl Text {
         &self.text
     }
 
-    /// What it covers in the program, quotes included.
+    /// Its span in the program, quotes included.
     pub fn span(&self) -> Span {
         self.span
     }
 
-    /// Whether it was written in quotes.
+    /// True if it was written in quotes.
     pub fn is_quoted(&self) -> bool {
         self.quoted
     }
 
-    /// Where a part of the text stands in the program.
+    /// The span of a part of the text in the program.
     pub fn locate(&self, part: Span) -> Span {
         let last = part.end.saturating_sub(1).max(part.start);
         let start = self.place(part.start);
         Span::new(start, if part.end > part.start { self.place(last) + 1 } else { start })
     }
 
-    /// A finding about the text (such as an error in an expression) as one about the program.
+    /// A diagnostic of the text (such as an error in an expression) as one of the program.
     pub fn diagnose(&self, found: Diagnostic) -> Diagnostic {
         let span = self.locate(found.span);
         let place = |note: Note| Note { span: note.span.map(|span| self.locate(span)), ..note };
@@ -70,7 +70,7 @@ impl Text {
         Diagnostic { span, notes, ..found }
     }
 
-    /// A part of the text that knows its own place.
+    /// A part of the text with its location.
     pub fn part(&self, range: std::ops::Range<usize>) -> Self {
         let text = self.text.get(range.clone()).unwrap_or("").to_owned();
         let span = self.locate(Span::new(range.start, range.end));
@@ -87,7 +87,7 @@ impl Text {
     }
 }
 
-impl std::fmt::Display for Text {
+impl std::fmt::Display for SourceText {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.text)
     }
@@ -98,9 +98,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_part_is_found_in_the_program_behind_a_comment_too() {
+    fn a_part_after_a_comment_has_its_location_in_the_program() {
         // "ab;c⏎d" : the text is `ab⏎d`
-        let text = Text::read("ab\nd".into(), Span::new(0, 8), true, vec![(0, 1), (2, 5)]);
+        let text = SourceText::read("ab\nd".into(), Span::new(0, 8), true, vec![(0, 1), (2, 5)]);
         assert_eq!(text.locate(Span::new(0, 2)), Span::new(1, 3));
         assert_eq!(text.locate(Span::new(3, 4)), Span::new(6, 7));
         assert_eq!(text.part(1..4).locate(Span::new(2, 3)), Span::new(6, 7));

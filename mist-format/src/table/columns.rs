@@ -1,7 +1,8 @@
 //! Tables of numbers in columns; the first column is the abscissa.
 
-use super::{TableError, lines, open_comment};
-use crate::dialect::{Dialect, Quirk};
+use super::error::TableError;
+use super::lines::{lines, open_comment};
+use crate::dialect::{Dialect, TextDeviation};
 use crate::number::number_prefix;
 
 /// A table of numbers.
@@ -17,9 +18,9 @@ pub struct ColumnTable {
 impl ColumnTable {
     /// Reads a table.
     ///
-    /// All lines up to the first one that consists of numbers are a header; that line fixes
-    /// the number of columns; later lines that do not begin with so many numbers are skipped.
-    /// Columns are separated by white space; a comma may stand behind a number.
+    /// All lines up to the first one that consists of numbers are a header. That line gives
+    /// the number of columns; later lines that begin with fewer numbers are skipped.
+    /// Columns are separated by white space; a comma may follow a number.
     ///
     /// Compat: an item counts as a number if it begins with one, and the last line is dropped
     /// if it has no line end. Sound: the last line is kept, and in rows of numbers an item
@@ -37,7 +38,7 @@ impl ColumnTable {
         let mut columns = 0;
         let mut numbers = Vec::new();
         for line in lines(text) {
-            if !line.ended && Quirk::DroppedLastLine.applies_in(dialect) {
+            if !line.ended && TextDeviation::DroppedLastLine.applies_in(dialect) {
                 break;
             }
             let items = || line.text.split_ascii_whitespace();
@@ -52,11 +53,15 @@ impl ColumnTable {
             numbers.extend(row);
             if numbers.len() < before + columns {
                 numbers.truncate(before);
-            } else if Quirk::NumberPrefix.refused_in(dialect)
+            } else if TextDeviation::NumberPrefix.refused_in(dialect)
                 && let Some(item) = items().take(columns).find(|item| !is_whole(item))
             {
                 let (line, item) = (line.number, item.to_owned());
-                return Err(TableError::Refused { line, item, quirk: Quirk::NumberPrefix });
+                return Err(TableError::Refused {
+                    line,
+                    item,
+                    deviation: TextDeviation::NumberPrefix,
+                });
             }
         }
         if columns == 0 || numbers.is_empty() {
@@ -80,7 +85,7 @@ impl ColumnTable {
         Self { columns, numbers, points }
     }
 
-    /// How many columns there are.
+    /// The number of columns.
     pub fn columns(&self) -> usize {
         self.columns
     }
@@ -125,7 +130,7 @@ impl ColumnTable {
     }
 }
 
-/// Linear between sorted points, constant outside of them; NaN where there are none.
+/// Linear between sorted points, constant outside of them; NaN without points.
 fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
     let behind = points.partition_point(|point| point.0 <= x);
     match (points.get(behind.wrapping_sub(1)), points.get(behind)) {
@@ -140,7 +145,7 @@ fn leading(item: &str) -> Option<f64> {
     number_prefix(item.as_bytes()).value
 }
 
-/// Whether an item is a number, or a number and a comma.
+/// True if an item is a number, or a number and a comma.
 fn is_whole(item: &str) -> bool {
     let bare = item.strip_suffix(',').unwrap_or(item);
     number_prefix(bare.as_bytes()).taken == bare.len()
@@ -202,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn missing_columns_and_rows_are_told() {
+    fn missing_columns_and_rows_are_reported() {
         let columns = Some(3);
         assert_eq!(
             compat(TEXT).look_up(1.0, 4),

@@ -7,25 +7,25 @@
 //!
 //! Keywords are read in any case; expressions are those of the library's evaluator.
 
-use super::{ColumnTable, TableError, lines, open_comment};
+use super::columns::ColumnTable;
+use super::error::TableError;
+use super::limits::MAX_FORMULA_ROWS;
+use super::lines::{SourceLine, lines, open_comment};
 use crate::expr::{Expr, Scope, Stack, Value};
 use std::collections::HashMap;
-
-/// The most rows that the FOR of a formula file may make.
-pub const MAX_FORMULA_ROWS: usize = 1_000_000;
 
 /// A formula file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulaFile {
     /// Name and value of each parameter; they can be set as sub-parameters.
     pub parameters: Vec<(String, f64)>,
-    /// How the columns are computed.
-    pub body: Body,
+    /// The computation of the columns.
+    pub body: FormulaBody,
 }
 
-/// How a formula file computes its columns.
+/// The computation of the columns of a formula file.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Body {
+pub enum FormulaBody {
     /// `@v:expr,…`: column c is the (c−1)st element.
     Formula {
         /// The variable.
@@ -59,12 +59,12 @@ pub struct FormulaLoop {
 pub struct Working {
     /// Its name.
     pub name: String,
-    /// How it is computed.
+    /// Its expression.
     pub expression: Expr,
 }
 
 impl FormulaFile {
-    /// Whether a file is a formula file: its first word is PARAMETERS.
+    /// True if the first word of the text is PARAMETERS.
     pub fn is_formula(text: &str) -> bool {
         let first = lines(text).find_map(|line| line.text.split_ascii_whitespace().next());
         first.is_some_and(|word| word.eq_ignore_ascii_case("PARAMETERS"))
@@ -73,12 +73,12 @@ impl FormulaFile {
     /// Reads a formula file.
     ///
     /// # Errors
-    /// The line that does not follow the grammar, and what should stand there.
+    /// The line that violates the grammar, and the expected item.
     pub fn parse(text: &str) -> Result<Self, TableError> {
         if let Some(line) = open_comment(text) {
             return Err(TableError::OpenComment { line });
         }
-        let mut words = Words::new(text);
+        let mut words = FormulaWords::new(text);
         words.keyword("PARAMETERS")?;
         let mut parameters = Vec::new();
         while let Some(name) = words.until("END")? {
@@ -90,7 +90,7 @@ impl FormulaFile {
             Some((variable, expression)) => {
                 let text = expression.to_owned() + &words.rest();
                 let columns = words.expression(&text)?;
-                Body::Formula { variable: variable.into(), columns }
+                FormulaBody::Formula { variable: variable.into(), columns }
             }
             None if first.eq_ignore_ascii_case("FOR") => words.body()?,
             None => return Err(words.expected("a formula `@v:…`, or FOR")),
@@ -108,13 +108,13 @@ impl FormulaFile {
         x: f64,
         parameter: impl Fn(&str) -> Option<f64>,
     ) -> Result<Option<Value>, TableError> {
-        let Body::Formula { variable, columns } = &self.body else { return Ok(None) };
+        let FormulaBody::Formula { variable, columns } = &self.body else { return Ok(None) };
         let mut names = self.names(parameter);
         names.insert(variable, x);
         evaluate(columns, &names).map(Some)
     }
 
-    /// The table that the loop of the file makes; nothing for a file with a formula.
+    /// The table of the file's loop; none for a file with a formula.
     ///
     /// # Errors
     /// A formula that cannot be computed, or a loop without end.
@@ -122,7 +122,7 @@ impl FormulaFile {
         &self,
         parameter: impl Fn(&str) -> Option<f64>,
     ) -> Result<Option<ColumnTable>, TableError> {
-        let Body::Loop(each) = &self.body else { return Ok(None) };
+        let FormulaBody::Loop(each) = &self.body else { return Ok(None) };
         let FormulaLoop { variable, from, to, by, working, values } = &**each;
         let mut names = self.names(parameter);
         let number = |expr: &Expr, names: &HashMap<&str, f64>| {
@@ -130,7 +130,7 @@ impl FormulaFile {
         };
         let (mut v, end) = (number(from, &names)?, number(to, &names)?);
         let step = number(by, &names)?;
-        // The same slack as for the FOR loops of programs: rounding must not lose the end.
+        // The slack of the FOR loops of programs, so that rounding does not lose the end.
         let slack = 1e-9 * step.abs();
         let mut numbers = Vec::new();
         for _ in 0..MAX_FORMULA_ROWS {
@@ -157,10 +157,10 @@ impl FormulaFile {
     }
 }
 
-/// The numbers that the names of an expression stand for.
-struct Numbers(Vec<Option<f64>>);
+/// The values of the names of an expression.
+struct NameValues(Vec<Option<f64>>);
 
-impl Scope for Numbers {
+impl Scope for NameValues {
     fn variable(&self, slot: u32) -> Option<&[f64]> {
         self.0.get(slot as usize)?.as_ref().map(std::slice::from_ref)
     }
@@ -168,21 +168,20 @@ impl Scope for Numbers {
 
 fn evaluate(expr: &Expr, names: &HashMap<&str, f64>) -> Result<Value, TableError> {
     let known = expr.names().iter().map(|name| names.get(name.as_str()).copied()).collect();
-    expr.eval(&mut Numbers(known), &mut Stack::default()).map_err(|error| TableError::Expression {
-        expression: expr.text().into(),
-        reason: error.to_string(),
+    expr.eval(&mut NameValues(known), &mut Stack::default()).map_err(|error| {
+        TableError::Expression { expression: expr.text().into(), reason: error.to_string() }
     })
 }
 
-/// The words of a file and the line reached.
-struct Words<'t> {
+/// The words of a file and the position of reading.
+struct FormulaWords<'t> {
     words: Vec<(usize, &'t str)>,
     at: usize,
 }
 
-impl<'t> Words<'t> {
+impl<'t> FormulaWords<'t> {
     fn new(text: &'t str) -> Self {
-        let of_line = |line: super::Line<'t>| {
+        let of_line = |line: SourceLine<'t>| {
             line.text.split_ascii_whitespace().map(move |word| (line.number, word))
         };
         Self { words: lines(text).flat_map(of_line).collect(), at: 0 }
@@ -205,7 +204,7 @@ impl<'t> Words<'t> {
         Ok(Some(word).filter(|word| !word.eq_ignore_ascii_case(keyword)))
     }
 
-    /// All that is left, without white space.
+    /// The remaining words, without white space.
     fn rest(&mut self) -> String {
         let rest = self.words[self.at..].iter().map(|word| word.1).collect();
         self.at = self.words.len();
@@ -228,8 +227,8 @@ impl<'t> Words<'t> {
         evaluate(&self.expression(text)?, &HashMap::new()).map(|value| value.number())
     }
 
-    /// What follows FOR.
-    fn body(&mut self) -> Result<Body, TableError> {
+    /// The loop after FOR.
+    fn body(&mut self) -> Result<FormulaBody, TableError> {
         let variable = self.next("the loop variable")?;
         self.keyword("FROM")?;
         let from = self.next_expression("the first value")?;
@@ -251,7 +250,7 @@ impl<'t> Words<'t> {
         if values.len() < 2 {
             return Err(self.expected("two columns or more behind VALUES"));
         }
-        Ok(Body::Loop(Box::new(FormulaLoop { variable, from, to, by, working, values })))
+        Ok(FormulaBody::Loop(Box::new(FormulaLoop { variable, from, to, by, working, values })))
     }
 
     /// The error at the word read last, or at the end.
@@ -286,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_follow_the_grammar_is_told_with_its_line() {
+    fn violations_of_the_grammar_are_reported_with_their_line() {
         let error = |text| FormulaFile::parse(text).unwrap_err();
         let line = |error| match error {
             TableError::Formula { line, .. } => line,

@@ -1,7 +1,7 @@
 //! LIST files: names in the first line, then one row of loop values per line.
 
-use super::{lines, open_comment};
-use crate::dialect::{Dialect, Quirk};
+use super::lines::{lines, open_comment};
+use crate::dialect::{Dialect, TextDeviation};
 use crate::span::Span;
 
 /// The names and rows of a LIST file.
@@ -13,7 +13,7 @@ pub struct ListTable {
     cells: Vec<Span>,
 }
 
-/// Why a LIST file cannot be used. Lines count from 1.
+/// Errors of reading a LIST file. Lines count from 1.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ListError {
     /// The first line names no columns.
@@ -51,7 +51,7 @@ impl ListTable {
         let mut cells = Vec::new();
         let mut end = text.len();
         for line in lines(text) {
-            if !line.ended && Quirk::DroppedLastLine.applies_in(dialect) {
+            if !line.ended && TextDeviation::DroppedLastLine.applies_in(dialect) {
                 break;
             }
             let words = words(line.text, line.start);
@@ -88,22 +88,22 @@ impl ListTable {
         self.names.iter().map(|name| name.of(&self.text))
     }
 
-    /// The place of each name in the file.
+    /// The span of each name in the file.
     pub fn name_spans(&self) -> &[Span] {
         &self.names
     }
 
-    /// How many rows there are; at least one.
+    /// The number of rows, at least one.
     pub fn row_count(&self) -> usize {
         self.cells.len() / self.names.len().max(1)
     }
 
-    /// The text of a cell; both count from 0. Nothing outside of the table.
+    /// The text of a cell; both indices count from 0. Empty outside of the table.
     pub fn cell(&self, row: usize, column: usize) -> &str {
         self.cell_span(row, column).map_or("", |cell| cell.of(&self.text))
     }
 
-    /// Where a cell stands in the file.
+    /// The span of a cell in the file.
     pub fn cell_span(&self, row: usize, column: usize) -> Option<Span> {
         if column >= self.names.len() {
             return None;
@@ -112,7 +112,7 @@ impl ListTable {
     }
 }
 
-/// The words of a line and their places in the file.
+/// The spans of the words of a line.
 fn words(line: &str, start: usize) -> impl Iterator<Item = Span> {
     line.split_ascii_whitespace().map(move |word| {
         let at = start + (word.as_ptr() as usize - line.as_ptr() as usize);
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_list_is_refused() {
+    fn invalid_lists_are_refused() {
         let error = |text| ListTable::parse(text, Dialect::Sound).unwrap_err();
         assert_eq!(error("\n1 2\n"), ListError::NoNames);
         assert_eq!(error("a b\n"), ListError::NoPoints);

@@ -35,7 +35,7 @@ fn printing_loses_nothing(program: &Program, text: &str, dialect: Dialect) {
     assert_eq!(again.to_string(), printed, "printing is stable, from\n{text}");
     let count = (again.comments.len(), program.comments.len());
     assert_eq!(count.0, count.1, "comments are kept, from\n{text}");
-    let (mut again, mut program) = (again.without_places(), program.clone().without_places());
+    let (mut again, mut program) = (again.without_locations(), program.clone().without_locations());
     // A comment inside an entry moves to a line of its own.
     for comment in again.comments.iter_mut().chain(&mut program.comments) {
         comment.own_line = true;

@@ -107,7 +107,7 @@ pub(crate) fn of_program(text: &str, found: &[Diagnostic]) -> Problem {
 pub(crate) fn diagnostics(text: &str, found: &[Diagnostic]) -> Vec<Found> {
     let lines = LineIndex::new(text);
     let one = |d: &Diagnostic| {
-        let (start, end) = (lines.place(text, d.span.start), lines.place(text, d.span.end));
+        let (start, end) = (lines.location(text, d.span.start), lines.location(text, d.span.end));
         Found {
             code: d.code.to_owned(),
             severity: match d.severity {

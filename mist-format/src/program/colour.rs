@@ -1,11 +1,11 @@
-//! The section COLOR: how a program's spectra become a colour table.
+//! The section COLOR: the colour table of a program's spectra.
 
-use super::Text;
+use super::text::SourceText;
 use crate::span::Span;
 
 /// The names that COLOR knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ColorKey {
+pub enum ColourKey {
     /// Expression for the wavelength in µm.
     Wavelength,
     /// One output label, or four `a,b,c,d` for the Stokes components I, Q, U, V.
@@ -30,9 +30,9 @@ pub enum ColorKey {
     Phis,
     /// Expression for the projected solid angle in sr.
     Omega,
-    /// Text for the header line `patch`.
+    /// SourceText for the header line `patch`.
     Patch,
-    /// Text for the header line `material`.
+    /// SourceText for the header line `material`.
     Material,
     /// Name of the colour table to write.
     Table,
@@ -44,7 +44,7 @@ pub enum ColorKey {
     Plot,
 }
 
-impl ColorKey {
+impl ColourKey {
     /// Every key, in the order of the manual.
     pub const ALL: &'static [Self] = &[
         Self::Wavelength,
@@ -96,8 +96,8 @@ impl ColorKey {
         Self::ALL.iter().copied().find(|key| key.name().eq_ignore_ascii_case(word))
     }
 
-    /// Whether its value may be several words without quotes, as in `patch = circle 2`; names
-    /// need quotes where they have blanks.
+    /// True if its value may be several words without quotes, as in `patch = circle 2`; names with
+    /// blanks need quotes.
     pub(super) fn takes_words(self) -> bool {
         match self {
             Self::Wavelength
@@ -124,39 +124,39 @@ impl ColorKey {
 
 /// One assignment in COLOR.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ColorEntry {
-    /// Told by the name.
-    pub key: ColorKey,
+pub struct ColourEntry {
+    /// The key, given by the name.
+    pub key: ColourKey,
     /// The name as written.
-    pub name: Text,
+    pub name: SourceText,
     /// The value.
-    pub value: Text,
+    pub value: SourceText,
 }
 
 /// The section COLOR.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Color {
+pub struct ColourStatements {
     /// Every assignment in the order written.
-    pub entries: Vec<ColorEntry>,
+    pub entries: Vec<ColourEntry>,
     /// From `COLOR:` to END.
     pub span: Span,
 }
 
-impl Color {
+impl ColourStatements {
     /// The last value given for `key`, unless it is empty.
-    pub fn last(&self, key: ColorKey) -> Option<&Text> {
+    pub fn last(&self, key: ColourKey) -> Option<&SourceText> {
         let found = self.entries.iter().rev().find(|entry| entry.key == key);
         found.map(|entry| &entry.value).filter(|value| !value.as_str().is_empty())
     }
 
     /// The filters, first met by the light first.
-    pub fn filters(&self) -> impl Iterator<Item = &Text> {
-        self.entries.iter().filter(|entry| entry.key == ColorKey::Filter).map(|entry| &entry.value)
+    pub fn filters(&self) -> impl Iterator<Item = &SourceText> {
+        self.entries.iter().filter(|entry| entry.key == ColourKey::Filter).map(|entry| &entry.value)
     }
 
     /// The labels of `spectrum`: one, or four for I, Q, U, V; each with its place.
-    pub fn spectrum(&self) -> Vec<Text> {
-        let Some(list) = self.last(ColorKey::Spectrum) else { return Vec::new() };
+    pub fn spectrum(&self) -> Vec<SourceText> {
+        let Some(list) = self.last(ColourKey::Spectrum) else { return Vec::new() };
         let mut at = 0;
         let mut labels = Vec::new();
         for word in list.as_str().split(',') {
@@ -169,12 +169,12 @@ impl Color {
     }
 }
 
-impl Color {
-    pub(super) fn without_places(self) -> Self {
-        let plain = |entry: ColorEntry| ColorEntry {
+impl ColourStatements {
+    pub(super) fn without_locations(self) -> Self {
+        let plain = |entry: ColourEntry| ColourEntry {
             key: entry.key,
-            name: entry.name.without_place(),
-            value: entry.value.without_place(),
+            name: entry.name.without_location(),
+            value: entry.value.without_location(),
         };
         Self { entries: self.entries.into_iter().map(plain).collect(), span: Span::default() }
     }
@@ -194,12 +194,12 @@ mod tests {
             format!("{SIX}\ncolor:\n spectrum = \"f0, f1,f2 ,f3\" filter = linear(0)\nEND x");
         for dialect in [Dialect::Sound, Dialect::Compat] {
             let program = program::parse(&text, dialect).unwrap();
-            let color = program.color.unwrap();
-            let labels = color.spectrum();
+            let colour = program.colour.unwrap();
+            let labels = colour.spectrum();
             let places: Vec<_> = labels.iter().map(|label| label.span().of(&text)).collect();
             assert_eq!(places, ["f0", "f1", "f2", "f3"]);
-            assert_eq!(color.filters().count(), 1);
-            assert_eq!(color.last(ColorKey::Table), None);
+            assert_eq!(colour.filters().count(), 1);
+            assert_eq!(colour.last(ColourKey::Table), None);
             assert_eq!(program.trailing.as_str(), " x");
         }
     }
@@ -212,12 +212,12 @@ mod tests {
         );
         for dialect in [Dialect::Sound, Dialect::Compat] {
             let program = program::parse(&text, dialect).unwrap();
-            let color = program.color.clone().unwrap();
-            let value = |key| color.last(key).unwrap().as_str();
-            assert_eq!(value(ColorKey::Patch), "circle 2");
-            assert_eq!(value(ColorKey::Wavelength), "wl / 1000");
-            assert_eq!(value(ColorKey::Material), "red  paint");
-            let labels = color.spectrum();
+            let colour = program.colour.clone().unwrap();
+            let value = |key| colour.last(key).unwrap().as_str();
+            assert_eq!(value(ColourKey::Patch), "circle 2");
+            assert_eq!(value(ColourKey::Wavelength), "wl / 1000");
+            assert_eq!(value(ColourKey::Material), "red  paint");
+            let labels = colour.spectrum();
             let places: Vec<_> = labels.iter().map(|label| label.span().of(&text)).collect();
             assert_eq!(places, ["f0", "f1", "f2", "f3"]);
             assert_eq!(program.comments[0].text, " degrees");
@@ -237,7 +237,7 @@ mod tests {
     fn without_color_the_rest_is_never_read() {
         let text = format!("{SIX} this is \"never read ; COLOR:");
         let program = program::parse(&text, Dialect::Sound).unwrap();
-        assert_eq!(program.color, None);
+        assert_eq!(program.colour, None);
         assert_eq!(program.trailing.as_str(), " this is \"never read ; COLOR:");
     }
 }
