@@ -142,7 +142,7 @@ impl ExprError {
             }
             ExprErrorKind::Refused { deviation } => {
                 let (nist, instead) = explain(*deviation);
-                found("expr/deviation").help(instead).note(nist)
+                found("expr/quirk").help(instead).note(nist)
             }
             ExprErrorKind::TooLong => {
                 found("expr/too-long").help("split it into several variables")
@@ -236,7 +236,7 @@ impl EvalError {
             ),
             EvalErrorKind::Vector { deviation } => {
                 let (nist, instead) = explain(*deviation);
-                found("expr/deviation").help(instead).note(nist)
+                found("expr/quirk").help(instead).note(nist)
             }
         }
     }

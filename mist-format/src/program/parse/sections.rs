@@ -205,7 +205,7 @@ impl Parser<'_> {
             let all: Vec<_> = names.clone().collect();
             let message = format!("COLOR knows no `{name}`");
             self.found.push(
-                Diagnostic::error("program/colour-key", name.span(), message)
+                Diagnostic::error("program/color-key", name.span(), message)
                     .help(format!("COLOR knows {}", all.join(", ")))
                     .help_if(did_you_mean(name.as_str(), names)),
             );
