@@ -71,16 +71,16 @@ fn title(family: Family) -> &'static str {
 }
 
 /// What a parameter holds, for people.
-fn kind(kind: spec::Kind) -> String {
+fn kind(kind: spec::ParameterKind) -> String {
     match kind {
-        spec::Kind::Number => "number".into(),
-        spec::Kind::Integer => "integer".into(),
-        spec::Kind::Text => "text".into(),
-        spec::Kind::File => "file".into(),
-        spec::Kind::Formula => "formula of x".into(),
-        spec::Kind::Index => "index".into(),
-        spec::Kind::Table => "table".into(),
-        spec::Kind::Films => "films".into(),
-        spec::Kind::Member(_, base) => base.into(),
+        spec::ParameterKind::Number => "number".into(),
+        spec::ParameterKind::Integer => "integer".into(),
+        spec::ParameterKind::Text => "text".into(),
+        spec::ParameterKind::File => "file".into(),
+        spec::ParameterKind::Formula => "formula of x".into(),
+        spec::ParameterKind::Index => "index".into(),
+        spec::ParameterKind::Table => "table".into(),
+        spec::ParameterKind::Films => "films".into(),
+        spec::ParameterKind::Member(_, base) => base.into(),
     }
 }

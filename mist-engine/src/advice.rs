@@ -19,7 +19,7 @@ mod tests;
 use std::collections::BTreeSet;
 
 use mist_format::Diagnostic;
-use scattering::spec::Met;
+use scattering::spec::SharedNotices;
 
 use crate::{
     Job,
@@ -131,7 +131,7 @@ impl<'j> Rehearsal<'j> {
         if !self.models.insert(step.parameters.fingerprint()) {
             return Ok(());
         }
-        let node = step.parameters.node(self.job.options.mode, &Met::default());
+        let node = step.parameters.node(self.job.options.mode, &SharedNotices::default());
         match scattering::models::build(&node) {
             Ok(_) => Ok(()),
             Err(error) => Err(self.job.parameter_fault(&error)),

@@ -152,7 +152,7 @@ impl AddAssign for Total {
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    use scattering::{Mode, Node, models};
+    use scattering::{Mode, ParameterNode, models};
 
     use super::*;
     use crate::region::{Angles, Apertures, Region};
@@ -162,7 +162,7 @@ mod tests {
 
     fn model(name: &str) -> Model {
         let class = &models::find(name).unwrap().class;
-        models::build(&Node::with_defaults(class, Mode::Compat)).unwrap()
+        models::build(&ParameterNode::with_defaults(class, Mode::Compat)).unwrap()
     }
 
     fn sampling(mode: i32, differential: f64, apertures: Apertures) -> Sampling {

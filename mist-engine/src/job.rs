@@ -6,7 +6,7 @@ use mist_format::{
     number::PrintfFormat,
     program::{ApertureShape, SourceText},
 };
-use scattering::{Basis, Class, Mode, ParamError};
+use scattering::{Basis, Class, Mode, ParameterError};
 
 use crate::{
     DataFiles, Limits,
@@ -192,7 +192,7 @@ impl Job {
     }
 
     /// A parameter that the model cannot take, at the place where the program sets it.
-    pub(crate) fn parameter_fault(&self, error: &ParamError) -> Fault {
+    pub(crate) fn parameter_fault(&self, error: &ParameterError) -> Fault {
         let path = error.parameter.as_str();
         let sets = |name: &str| {
             path.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))

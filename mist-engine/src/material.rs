@@ -16,7 +16,7 @@ mod text;
 use std::{collections::BTreeMap, sync::Arc};
 
 use mist_format::suggestion::did_you_mean;
-use scattering::{Mode, Model, Notice, ParamError, models, spec::Met};
+use scattering::{Mode, Model, Notice, ParameterError, models, spec::SharedNotices};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -72,7 +72,7 @@ pub enum MaterialError {
     Set(#[from] SetError),
     /// The model cannot be built with these values.
     #[error(transparent)]
-    Build(#[from] ParamError),
+    Build(#[from] ParameterError),
     /// A part of the request is wrong.
     #[error("{part}: {problem}")]
     Request {
@@ -228,7 +228,7 @@ impl Prepared {
     ///
     /// For values that the model cannot take.
     pub fn model(&self) -> Result<(Model, Vec<Notice>), MaterialError> {
-        let met = Met::default();
+        let met = SharedNotices::default();
         let model = models::build(&self.parameters.node(self.mode, &met))?;
         let met = met.lock().expect("no build panics").iter().copied().collect();
         Ok((model, met))

@@ -21,7 +21,7 @@ pub use fingerprint::Fingerprint;
 
 use object::ObjectState;
 use persistent::Persistent;
-use scattering::{Class, Mode, Node, spec::Met};
+use scattering::{Class, Mode, ParameterNode, spec::SharedNotices};
 
 use crate::DataFiles;
 
@@ -96,7 +96,7 @@ impl ModelParameters {
     }
 
     /// The typed values from which the model is built.
-    pub fn node(&self, mode: Mode, met: &Met) -> Node {
+    pub fn node(&self, mode: Mode, met: &SharedNotices) -> ParameterNode {
         self.root.node(mode, met)
     }
 

@@ -1,7 +1,7 @@
 //! The registry of models as JSON: for programs, for editors, for a page.
 
 use mist_format::suggestion::did_you_mean;
-use scattering::{Class, Family, Param, spec::Kind};
+use scattering::{Class, Family, Parameter, spec::ParameterKind};
 use serde_json::{Map, Value, json};
 
 /// All classes, by family.
@@ -54,7 +54,7 @@ pub fn schema(class: &Class) -> Value {
     })
 }
 
-fn property(param: &Param) -> Value {
+fn property(param: &Parameter) -> Value {
     let mut property = json!({
         "description": param.doc,
         "default": default(param),
@@ -62,9 +62,9 @@ fn property(param: &Param) -> Value {
         "x-unit": param.unit,
     });
     match param.kind {
-        Kind::Number => property["type"] = json!(["number", "string"]),
-        Kind::Integer => property["type"] = json!(["integer", "string"]),
-        Kind::Member(family, base) => {
+        ParameterKind::Number => property["type"] = json!(["number", "string"]),
+        ParameterKind::Integer => property["type"] = json!(["integer", "string"]),
+        ParameterKind::Member(family, base) => {
             property["type"] = json!("string");
             property["x-base"] = json!(base);
             let members = family
@@ -80,16 +80,16 @@ fn property(param: &Param) -> Value {
 }
 
 /// The default as a number where it is one.
-fn default(param: &Param) -> Value {
+fn default(param: &Parameter) -> Value {
     let number = match param.kind {
-        Kind::Integer => param.default.parse().ok().map(|n: i64| json!(n)),
-        Kind::Number => param.default.parse().ok().map(|x: f64| json!(x)),
+        ParameterKind::Integer => param.default.parse().ok().map(|n: i64| json!(n)),
+        ParameterKind::Number => param.default.parse().ok().map(|x: f64| json!(x)),
         _ => None,
     };
     number.unwrap_or_else(|| json!(param.default))
 }
 
-fn parameter(param: &Param) -> Value {
+fn parameter(param: &Parameter) -> Value {
     let (kind, base) = kind(param.kind);
     json!({
         "name": param.name,
@@ -102,17 +102,17 @@ fn parameter(param: &Param) -> Value {
 }
 
 /// What a parameter holds, and the base of its classes if it is an object.
-fn kind(kind: Kind) -> (&'static str, Option<&'static str>) {
+fn kind(kind: ParameterKind) -> (&'static str, Option<&'static str>) {
     match kind {
-        Kind::Number => ("number", None),
-        Kind::Integer => ("integer", None),
-        Kind::Text => ("text", None),
-        Kind::File => ("file", None),
-        Kind::Formula => ("formula", None),
-        Kind::Index => ("index", None),
-        Kind::Table => ("table", None),
-        Kind::Films => ("films", None),
-        Kind::Member(_, base) => ("member", Some(base)),
+        ParameterKind::Number => ("number", None),
+        ParameterKind::Integer => ("integer", None),
+        ParameterKind::Text => ("text", None),
+        ParameterKind::File => ("file", None),
+        ParameterKind::Formula => ("formula", None),
+        ParameterKind::Index => ("index", None),
+        ParameterKind::Table => ("table", None),
+        ParameterKind::Films => ("films", None),
+        ParameterKind::Member(_, base) => ("member", Some(base)),
     }
 }
 
@@ -128,7 +128,7 @@ mod tests {
                 let property = &schema["properties"][param.name];
                 assert_eq!(property["x-unit"], json!(param.unit), "{}", class.name);
                 assert!(!property["default"].is_null(), "{} {}", class.name, param.name);
-                if let Kind::Member(..) = param.kind {
+                if let ParameterKind::Member(..) = param.kind {
                     let names = property["enum"].as_array().unwrap();
                     let default = param.default.split_whitespace().next().unwrap_or("");
                     assert!(

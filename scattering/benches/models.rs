@@ -4,24 +4,24 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use scattering::{
-    Basis, Direction, Incidence, Mode, Model, Mueller, Node, Value, models, optics::Index, spec,
-    stack::Film,
+    Basis, Direction, Incidence, Mode, Model, Mueller, ParameterNode, ParameterValue, models,
+    optics::RefractiveIndex, spec, stack::Film,
 };
 
 /// Directions in a batch: enough to hide the call, few enough to stay in the cache.
 const BATCH: usize = 1024;
 
-fn class(name: &str) -> Node {
-    Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+fn class(name: &str) -> ParameterNode {
+    ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
 }
 
-fn facet(index: Index, films: Vec<Film>) -> Model {
+fn facet(index: RefractiveIndex, films: Vec<Film>) -> Model {
     let slopes = class("Gaussian_Slope_Distribution_Function");
-    let stack = class("Stack_StackModel").with("stack", Value::Films(films)).unwrap();
+    let stack = class("Stack_StackModel").with("stack", ParameterValue::Films(films)).unwrap();
     let node = class("Facet_BRDF_Model")
-        .with("substrate", Value::Index(index))
-        .and_then(|node| node.with("sdf", Value::Member(slopes.into())))
-        .and_then(|node| node.with("stack", Value::Member(stack.into())));
+        .with("substrate", ParameterValue::Index(index))
+        .and_then(|node| node.with("sdf", ParameterValue::Member(slopes.into())))
+        .and_then(|node| node.with("stack", ParameterValue::Member(stack.into())));
     models::build(&node.unwrap()).unwrap()
 }
 
@@ -36,14 +36,14 @@ fn directions() -> Vec<Direction> {
 }
 
 fn batches(c: &mut Criterion) {
-    let film = |n, thickness| Film { index: Index::constant(n, 0.0), thickness };
+    let film = |n, thickness| Film { index: RefractiveIndex::constant(n, 0.0), thickness };
     let films = vec![film(2.5, 0.06), film(1.58, 0.3), film(2.5, 0.06)];
     let flakes = class("Subsurface_Facet_BRDF_Model");
     let shadowed = class("Shadowed_Facet_BRDF_Model");
     let cases = [
-        ("facet metal", facet(Index::constant(1.3, 1.2), Vec::new())),
-        ("facet glass", facet(Index::constant(1.5, 0.0), Vec::new())),
-        ("facet three films", facet(Index::constant(1.5, 0.0), films)),
+        ("facet metal", facet(RefractiveIndex::constant(1.3, 1.2), Vec::new())),
+        ("facet glass", facet(RefractiveIndex::constant(1.5, 0.0), Vec::new())),
+        ("facet three films", facet(RefractiveIndex::constant(1.5, 0.0), films)),
         ("flakes under a coat", models::build(&flakes).unwrap()),
         ("shadowed facet", models::build(&shadowed).unwrap()),
     ];

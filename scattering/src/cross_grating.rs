@@ -6,8 +6,8 @@
 use num_complex::Complex64;
 
 use crate::{
-    optics::Index,
-    spec::{Family, Member, Node, Param, ParamError, Spec},
+    optics::RefractiveIndex,
+    spec::{Family, Member, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 pub mod cylinder;
@@ -22,8 +22,8 @@ pub mod pyramidal_pit;
 pub mod rectangle;
 pub mod sphere;
 
-pub use grid::Grid;
-pub use pattern::{CrossPattern, Truncation};
+pub use grid::PixelGrid;
+pub use pattern::{CrossPattern, HarmonicTruncation};
 
 /// A crossed grating.
 pub trait CrossGrating: Send + Sync {
@@ -32,7 +32,7 @@ pub trait CrossGrating: Send + Sync {
     /// # Errors
     ///
     /// If the materials at that wavelength do not fit together.
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError>;
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError>;
 }
 
 /// A crossed grating at one wavelength.
@@ -107,23 +107,23 @@ impl Member for dyn CrossGrating {
 }
 
 /// The media on both sides: the first group of every crossed grating.
-pub const MEDIA: &[Param] = &[
-    Param::index("medium_i", "(1,0)", "Index of the medium above"),
-    Param::index("medium_t", "(4.05,0.05)", "Index of the medium below"),
+pub const MEDIA: &[Parameter] = &[
+    Parameter::index("medium_i", "(1,0)", "Index of the medium above"),
+    Parameter::index("medium_t", "(4.05,0.05)", "Index of the medium below"),
 ];
 
 /// The media on both sides of a crossed grating.
 #[derive(Clone, Debug)]
-pub struct Media {
+pub struct CrossGratingMedia {
     /// The medium above.
-    pub above: Index,
+    pub above: RefractiveIndex,
     /// The medium below.
-    pub below: Index,
+    pub below: RefractiveIndex,
 }
 
-impl Media {
+impl CrossGratingMedia {
     /// Reads the parameters of [`MEDIA`].
-    pub fn read(node: &Node) -> Self {
+    pub fn read(node: &ParameterNode) -> Self {
         Self { above: node.index("medium_i").clone(), below: node.index("medium_t").clone() }
     }
 
@@ -139,7 +139,7 @@ impl Media {
         lambda: f64,
         name: &str,
         part: Complex64,
-    ) -> Result<(), ParamError> {
+    ) -> Result<(), ParameterError> {
         same(name, part, self.above.at(lambda))
     }
 
@@ -149,24 +149,24 @@ impl Media {
         lambda: f64,
         name: &str,
         part: Complex64,
-    ) -> Result<(), ParamError> {
+    ) -> Result<(), ParameterError> {
         same(name, part, self.below.at(lambda))
     }
 }
 
 /// An error at `name` unless two neighbours have the same medium between them.
-pub(crate) fn same(name: &str, this: Complex64, other: Complex64) -> Result<(), ParamError> {
+pub(crate) fn same(name: &str, this: Complex64, other: Complex64) -> Result<(), ParameterError> {
     if this == other {
         return Ok(());
     }
-    Err(ParamError::new(name, format!("{this} differs from its neighbour, {other}")))
+    Err(ParameterError::new(name, format!("{this} differs from its neighbour, {other}")))
 }
 
 /// The angle `name` in degrees, if two axes can enclose it.
-pub(crate) fn lean(node: &Node, name: &str) -> Result<f64, ParamError> {
+pub(crate) fn lean(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let angle = node.number(name);
     if angle.abs() < 90.0 {
         return Ok(angle.to_radians());
     }
-    Err(ParamError::new(name, format!("{angle} is not between -90 and 90")))
+    Err(ParameterError::new(name, format!("{angle} is not between -90 and 90")))
 }

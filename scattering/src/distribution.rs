@@ -1,6 +1,6 @@
 //! Densities of a particle diameter.
 
-use crate::spec::{Family, Member, Node, ParamError, Spec};
+use crate::spec::{Family, Member, ParameterError, ParameterNode, Spec};
 
 pub mod bimodal;
 pub mod log_normal;
@@ -27,12 +27,12 @@ impl Member for dyn Distribution {
 }
 
 /// The number `name`, which has to be positive and finite.
-fn positive(node: &Node, name: &str) -> Result<f64, ParamError> {
+fn positive(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let x = node.number(name);
     if x > 0.0 && x.is_finite() {
         return Ok(x);
     }
-    Err(ParamError::new(name, format!("{x} is not positive")))
+    Err(ParameterError::new(name, format!("{x} is not positive")))
 }
 
 #[cfg(test)]
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
     use crate::{Defect, Mode, special::gauss};
 
-    fn integral(spec: &Spec<dyn Distribution>, node: &Node) -> f64 {
+    fn integral(spec: &Spec<dyn Distribution>, node: &ParameterNode) -> f64 {
         let distribution = (spec.build)(node).unwrap();
         // In u = ln d from 1 nm to 100 km: every default lies far inside.
         gauss::integrate(1000, 1e-3f64.ln(), 1e11f64.ln(), |u| {
@@ -51,7 +51,7 @@ mod tests {
     #[test]
     fn the_integral_over_all_diameters_is_one() {
         for spec in ALL {
-            let node = Node::with_defaults(&spec.class, Mode::Sound);
+            let node = ParameterNode::with_defaults(&spec.class, Mode::Sound);
             // Part of the normal distribution lies at negative diameters: ½ erfc(√2) = 0.02275.
             let expected =
                 if spec.class.name == "Normal_Distribution" { 0.977_249_87 } else { 1.0 };
@@ -63,9 +63,9 @@ mod tests {
     #[test]
     fn modified_gamma_integrates_to_two_in_compat_only() {
         let spec = &modified_gamma::SPEC;
-        let compat = Node::with_defaults(&spec.class, Mode::Compat);
+        let compat = ParameterNode::with_defaults(&spec.class, Mode::Compat);
         assert!((integral(spec, &compat) - 2.0).abs() < 1e-9);
-        let sound = Node::with_defaults(&spec.class, Mode::Sound);
+        let sound = ParameterNode::with_defaults(&spec.class, Mode::Sound);
         assert!((integral(spec, &sound) - 1.0).abs() < 1e-9);
         assert!(sound.met.lock().unwrap().contains(&Defect::GammaNorm.into()));
     }

@@ -10,8 +10,8 @@ use glam::DVec3;
 
 use crate::{
     Mode,
-    lanes::{Vectors, WIDTH},
-    polarization::{Beams, is_normal},
+    lanes::{SimdLevel, WIDTH},
+    polarization::{BeamPair, is_normal},
 };
 
 /// The four angles of one evaluation, in radians.
@@ -240,13 +240,18 @@ impl Geometry {
 }
 
 /// The beams of an event on `side`, for a change of basis.
-pub(crate) fn beams(side: Side, incidence: &Incidence, direction: &Direction, mode: Mode) -> Beams {
+pub(crate) fn beams(
+    side: Side,
+    incidence: &Incidence,
+    direction: &Direction,
+    mode: Mode,
+) -> BeamPair {
     let (k_i, k_s) = propagation(side, incidence, direction);
     let s = match mode {
         Mode::Sound => direction.s(),
         Mode::Compat => direction.nists_s(),
     };
-    Beams { k: [k_i, k_s], s: [incidence.s(), s] }
+    BeamPair { k: [k_i, k_s], s: [incidence.s(), s] }
 }
 
 /// Propagation vectors (incident, scattered) with the z components that belong to `side`.
@@ -263,25 +268,25 @@ pub fn propagation(side: Side, incidence: &Incidence, direction: &Direction) -> 
 
 /// A scattered ray, or several: what of [`Direction`] formulas need.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Outgoing<R> {
+pub(crate) struct ScatteredRay<R> {
     pub(crate) sin: R,
     pub(crate) cos: R,
     pub(crate) sin_phi: R,
     pub(crate) cos_phi: R,
 }
 
-impl Outgoing<f64> {
+impl ScatteredRay<f64> {
     #[inline]
-    pub(crate) fn one(direction: &Direction) -> Self {
+    pub(crate) fn single(direction: &Direction) -> Self {
         let &Direction { sin, cos, sin_phi, cos_phi, .. } = direction;
         Self { sin, cos, sin_phi, cos_phi }
     }
 }
 
-impl<R> Outgoing<R> {
+impl<R> ScatteredRay<R> {
     #[inline(always)]
-    pub(crate) fn several(
-        vectors: impl Vectors<Real = R>,
+    pub(crate) fn batch(
+        vectors: impl SimdLevel<Vector = R>,
         directions: &[Direction; WIDTH],
     ) -> Self {
         let each = |f: fn(&Direction) -> f64| vectors.load(&directions.each_ref().map(f));

@@ -6,8 +6,8 @@
 use num_complex::Complex64;
 
 use crate::{
-    optics::Index,
-    spec::{Family, Member, Node, Param, ParamError, Spec},
+    optics::RefractiveIndex,
+    spec::{Family, Member, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 pub mod corner_rounded;
@@ -20,7 +20,7 @@ pub mod sinusoidal_relief;
 pub mod sinusoidal_volume;
 pub mod triangular;
 
-pub use pattern::{Material, Pattern};
+pub use pattern::{GratingMaterial, LinePattern};
 
 /// A line grating.
 pub trait Grating: Send + Sync {
@@ -29,12 +29,12 @@ pub trait Grating: Send + Sync {
     /// # Errors
     ///
     /// If the materials at that wavelength do not fit together.
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError>;
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError>;
 }
 
 /// A grating at one wavelength.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Profile {
+pub struct LineProfile {
     /// Period, µm.
     pub period: f64,
     /// Index of the medium above.
@@ -42,16 +42,16 @@ pub struct Profile {
     /// Index of the medium below.
     pub below: Complex64,
     /// Slices, the topmost first.
-    pub slices: Vec<Slice>,
+    pub slices: Vec<LineSlice>,
 }
 
 /// A slice in which the material does not depend on z.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Slice {
+pub struct LineSlice {
     /// Thickness, µm.
     pub thickness: f64,
     /// The material along x.
-    pub pattern: Pattern,
+    pub pattern: LinePattern,
 }
 
 /// All of them, in the order they are listed to users.
@@ -74,31 +74,31 @@ impl Member for dyn Grating {
     }
 }
 
-/// The parameters of [`Common`]: the first group of every line grating.
-pub const COMMON: &[Param] = &[
-    Param::number("period", "1", "um", "Period"),
-    Param::index("medium_i", "(1,0)", "Index of the medium above"),
-    Param::index("medium_t", "(4.05,0.05)", "Index of the medium below"),
+/// The parameters of [`GratingCommon`]: the first group of every line grating.
+pub const COMMON: &[Parameter] = &[
+    Parameter::number("period", "1", "um", "Period"),
+    Parameter::index("medium_i", "(1,0)", "Index of the medium above"),
+    Parameter::index("medium_t", "(4.05,0.05)", "Index of the medium below"),
 ];
 
 /// What every line grating has.
 #[derive(Clone, Debug)]
-pub struct Common {
+pub struct GratingCommon {
     /// Period, µm.
     pub period: f64,
     /// The medium above.
-    pub above: Index,
+    pub above: RefractiveIndex,
     /// The medium below.
-    pub below: Index,
+    pub below: RefractiveIndex,
 }
 
-impl Common {
+impl GratingCommon {
     /// Reads the common parameters of `node`.
     ///
     /// # Errors
     ///
     /// If the period is not positive.
-    pub fn read(node: &Node) -> Result<Self, ParamError> {
+    pub fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
             period: positive(node, "period")?,
             above: node.index("medium_i").clone(),
@@ -107,15 +107,15 @@ impl Common {
     }
 
     /// The profile with these slices; neighbours with the same pattern become one slice.
-    pub fn profile(&self, lambda: f64, slices: impl IntoIterator<Item = Slice>) -> Profile {
-        let mut merged: Vec<Slice> = Vec::new();
+    pub fn profile(&self, lambda: f64, slices: impl IntoIterator<Item = LineSlice>) -> LineProfile {
+        let mut merged: Vec<LineSlice> = Vec::new();
         for slice in slices {
             match merged.last_mut() {
                 Some(last) if last.pattern == slice.pattern => last.thickness += slice.thickness,
                 _ => merged.push(slice),
             }
         }
-        Profile {
+        LineProfile {
             period: self.period,
             above: self.above.at(lambda),
             below: self.below.at(lambda),
@@ -125,40 +125,44 @@ impl Common {
 }
 
 /// The number `name`, if it is finite and > 0.
-pub(crate) fn positive(node: &Node, name: &str) -> Result<f64, ParamError> {
+pub(crate) fn positive(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let x = node.number(name);
     if x > 0.0 && x.is_finite() {
         return Ok(x);
     }
-    Err(ParamError::new(name, format!("{x} is not greater than 0")))
+    Err(ParameterError::new(name, format!("{x} is not greater than 0")))
 }
 
 /// The number `name`, if it is finite and ≥ 0.
-pub(crate) fn not_negative(node: &Node, name: &str) -> Result<f64, ParamError> {
+pub(crate) fn not_negative(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let x = node.number(name);
     if x >= 0.0 && x.is_finite() {
         return Ok(x);
     }
-    Err(ParamError::new(name, format!("{x} is not 0 or greater")))
+    Err(ParameterError::new(name, format!("{x} is not 0 or greater")))
 }
 
 /// The number `name`, if it is finite.
-pub(crate) fn finite(node: &Node, name: &str) -> Result<f64, ParamError> {
+pub(crate) fn finite(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let x = node.number(name);
     if x.is_finite() {
         return Ok(x);
     }
-    Err(ParamError::new(name, format!("{x} is not a finite number")))
+    Err(ParameterError::new(name, format!("{x} is not a finite number")))
 }
 
 /// Most slices a grating is cut into: beyond it the matrices would fill the memory.
 const MOST_LEVELS: i32 = 10_000;
 
 /// The integer `name` as a number of slices, at least `least`.
-pub(crate) fn levels(node: &Node, name: &str, least: i32) -> Result<usize, ParamError> {
+pub(crate) fn levels(
+    node: &ParameterNode,
+    name: &str,
+    least: i32,
+) -> Result<usize, ParameterError> {
     let n = node.integer(name);
     if (least..=MOST_LEVELS).contains(&n) {
         return Ok(n.unsigned_abs() as usize);
     }
-    Err(ParamError::new(name, format!("{n} is not from {least} to {MOST_LEVELS}")))
+    Err(ParameterError::new(name, format!("{n} is not from {least} to {MOST_LEVELS}")))
 }

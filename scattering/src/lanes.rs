@@ -1,6 +1,6 @@
 //! Several numbers at once: closed forms for a batch of directions.
 //!
-//! A formula is written once over [`Real`] and works on one number or, in a [`Batch`], on several.
+//! A formula is written once over [`Real`] and works on one number or, in a [`LaneKernel`], on several.
 //! Each lane goes through the operations of one number in their order, so a batch has the bits of
 //! its directions one by one, on every machine.
 
@@ -15,7 +15,7 @@ use std::{
 pub(crate) use elementary::polynomial;
 pub use elementary::{sin_cos_of_half_turn, sinh_cosh};
 use num_complex::Complex64;
-pub use wide::{Batch, Vectors, with_widest};
+pub use wide::{LaneKernel, SimdLevel, dispatch};
 
 /// How many numbers go side by side.
 pub const WIDTH: usize = 8;
@@ -40,7 +40,7 @@ pub trait Real:
     + Div<f64, Output = Self>
 {
     /// The number `x`, in every lane.
-    fn all(self, x: f64) -> Self;
+    fn splat(self, x: f64) -> Self;
 
     /// `f` of each number.
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
@@ -64,13 +64,13 @@ pub trait Real:
     }
 
     /// `a` where this is not negative, `b` elsewhere.
-    fn choose(self, a: Self, b: Self) -> Self;
+    fn select(self, a: Self, b: Self) -> Self;
 
     /// The nearest whole number from 0 to `most`, which is whole and less than 2⁵¹; 0 for NaN.
     #[inline(always)]
     fn rounded_within(self, most: f64) -> Self {
-        let from_0 = self.choose(self, self.all(0.0));
-        let within = (-from_0 + most).choose(from_0, self.all(most));
+        let from_0 = self.select(self, self.splat(0.0));
+        let within = (-from_0 + most).select(from_0, self.splat(most));
         within + ROUNDING - ROUNDING
     }
 
@@ -80,14 +80,14 @@ pub trait Real:
     #[inline(always)]
     fn exp_falling(self) -> Self {
         let is_less = -self + LAST;
-        let within = is_less.choose(self.all(LAST), self);
+        let within = is_less.select(self.splat(LAST), self);
         let shifted = within * LOG2_E + ROUNDING;
         let k = shifted - ROUNDING;
         let r = within - k * LN_2[0] - k * LN_2[1];
         let sum = polynomial(&SERIES, r);
         let power = shifted.map(|x| f64::from_bits(x.to_bits().wrapping_add(1023) << 52));
         // NaN is passed on.
-        is_less.choose(self.all(0.0), sum * power)
+        is_less.select(self.splat(0.0), sum * power)
     }
 }
 
@@ -117,7 +117,7 @@ const SERIES: [f64; 14] = [
 
 impl Real for f64 {
     #[inline(always)]
-    fn all(self, x: f64) -> Self {
+    fn splat(self, x: f64) -> Self {
         x
     }
 
@@ -127,7 +127,7 @@ impl Real for f64 {
     }
 
     #[inline(always)]
-    fn choose(self, a: Self, b: Self) -> Self {
+    fn select(self, a: Self, b: Self) -> Self {
         if self >= 0.0 { a } else { b }
     }
 }
@@ -145,7 +145,7 @@ impl Lanes {
 
 impl Real for Lanes {
     #[inline(always)]
-    fn all(self, x: f64) -> Self {
+    fn splat(self, x: f64) -> Self {
         Self::new(x)
     }
 
@@ -159,10 +159,10 @@ impl Real for Lanes {
     }
 
     #[inline(always)]
-    fn choose(self, a: Self, b: Self) -> Self {
+    fn select(self, a: Self, b: Self) -> Self {
         let mut all = b;
         for k in 0..WIDTH {
-            all.0[k] = self.0[k].choose(a.0[k], b.0[k]);
+            all.0[k] = self.0[k].select(a.0[k], b.0[k]);
         }
         all
     }
@@ -229,7 +229,7 @@ impl<R: Real> Complex<R> {
     /// The real number `x`.
     #[inline(always)]
     pub(crate) fn real(x: R) -> Self {
-        Self { re: x, im: x.all(0.0) }
+        Self { re: x, im: x.splat(0.0) }
     }
 
     /// −i z x.
@@ -253,7 +253,7 @@ impl<R: Real> Complex<R> {
     /// a/b.
     #[inline(always)]
     pub(crate) fn over(self, b: Self) -> Self {
-        self.times_conjugate(b) * (b.re.all(1.0) / b.norm_sqr())
+        self.times_conjugate(b) * (b.re.splat(1.0) / b.norm_sqr())
     }
 }
 
@@ -261,7 +261,7 @@ impl<R: Real> Complex<R> {
 #[inline(always)]
 pub(crate) fn ratios<R: Real>([a, c]: [Complex<R>; 2], [b, d]: [Complex<R>; 2]) -> [Complex<R>; 2] {
     let (b2, d2) = (b.norm_sqr(), d.norm_sqr());
-    let per_both = b2.all(1.0) / (b2 * d2);
+    let per_both = b2.splat(1.0) / (b2 * d2);
     [a.times_conjugate(b) * (per_both * d2), c.times_conjugate(d) * (per_both * b2)]
 }
 
@@ -326,7 +326,7 @@ impl<R: Real> Mul for Complex<R> {
 
 #[cfg(test)]
 mod tests {
-    use super::{wide::Kind, *};
+    use super::{wide::SimdKind, *};
 
     #[test]
     fn the_falling_exponential_is_that_of_the_standard_library() {
@@ -353,15 +353,15 @@ mod tests {
         let z = Complex { re: x, im: y - 0.3 };
         let w = z.over(Complex { re: y, im: x * 2.0 + 1.0 }) * (x * x + y).sqrt();
         let (sin, _) = w.im.sin_cos();
-        (x - y).choose((-(w.norm_sqr())).exp_falling(), (w.re + sin).abs() / y)
+        (x - y).select((-(w.norm_sqr())).exp_falling(), (w.re + sin).abs() / y)
     }
 
     /// The formula in the registers of this processor.
-    struct Formula<'a>([f64; WIDTH], [f64; WIDTH], &'a mut [f64; WIDTH]);
+    struct LaneFormula<'a>([f64; WIDTH], [f64; WIDTH], &'a mut [f64; WIDTH]);
 
-    impl Batch for Formula<'_> {
+    impl LaneKernel for LaneFormula<'_> {
         #[inline(always)]
-        fn run<V: Vectors>(self, vectors: V) {
+        fn run<V: SimdLevel>(self, vectors: V) {
             *self.2 = vectors.store(formula(vectors.load(&self.0), vectors.load(&self.1)));
         }
     }
@@ -371,10 +371,10 @@ mod tests {
         let x = [0.1, 7.0, 0.2, 1e-3, -0.7, 1e9, 0.5, 1.0];
         let y = [0.4, 6.9, 0.3, 0.0, -2e-5, 3.0, 0.6, 1.0];
         let alone = std::array::from_fn(|k| formula(x[k], y[k]).to_bits());
-        let mut several = [0.0; WIDTH];
-        for kind in Kind::of_this_processor() {
-            kind.run(Formula(x, y, &mut several));
-            assert_eq!(several.map(f64::to_bits), alone, "{kind:?}");
+        let mut batch = [0.0; WIDTH];
+        for kind in SimdKind::of_this_processor() {
+            kind.run(LaneFormula(x, y, &mut batch));
+            assert_eq!(batch.map(f64::to_bits), alone, "{kind:?}");
         }
     }
 
@@ -382,22 +382,22 @@ mod tests {
     fn what_is_not_a_number_chooses_and_stays_the_same_in_every_kind_of_lane() {
         let x = [f64::NAN, -0.0, f64::INFINITY, f64::NEG_INFINITY, 0.0, -f64::NAN, 1e-320, -1e-320];
         let y = [1.0, f64::NAN, -2.0, -0.0, f64::INFINITY, 3.0, f64::NAN, 4.0];
-        let alone = std::array::from_fn(|k| x[k].choose(y[k], 5.0).to_bits());
-        let mut several = [0.0; WIDTH];
-        for kind in Kind::of_this_processor() {
-            kind.run(Choice(x, y, &mut several));
-            assert_eq!(several.map(f64::to_bits), alone, "{kind:?}");
+        let alone = std::array::from_fn(|k| x[k].select(y[k], 5.0).to_bits());
+        let mut batch = [0.0; WIDTH];
+        for kind in SimdKind::of_this_processor() {
+            kind.run(Choice(x, y, &mut batch));
+            assert_eq!(batch.map(f64::to_bits), alone, "{kind:?}");
         }
     }
 
     /// The second numbers where the first are not negative, 5 elsewhere.
     struct Choice<'a>([f64; WIDTH], [f64; WIDTH], &'a mut [f64; WIDTH]);
 
-    impl Batch for Choice<'_> {
+    impl LaneKernel for Choice<'_> {
         #[inline(always)]
-        fn run<V: Vectors>(self, vectors: V) {
+        fn run<V: SimdLevel>(self, vectors: V) {
             let (x, y) = (vectors.load(&self.0), vectors.load(&self.1));
-            *self.2 = vectors.store(x.choose(y, x.all(5.0)));
+            *self.2 = vectors.store(x.select(y, x.splat(5.0)));
         }
     }
 }

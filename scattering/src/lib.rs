@@ -1,6 +1,6 @@
 //! Polarized scattering models: from the parameters of a material to Mueller matrices.
 //!
-//! A model is chosen by name from [`models`], built from a [`Node`] of typed parameter values,
+//! A model is chosen by name from [`models`], built from a [`ParameterNode`] of typed parameter values,
 //! and asked for the 4×4 Mueller BRDF (1/sr) of one incident beam and many directions:
 //!
 //! ```
@@ -46,7 +46,9 @@ pub mod vectors;
 pub use defect::{Defect, Mode};
 pub use geometry::{Direction, Geometry, Incidence, Side};
 pub use models::{Brdf, Model};
-pub use notice::{Limit, Notice};
+pub use notice::{ModelLimit, Notice};
 pub use polarization::{Basis, Jones, Mueller, Stokes};
-pub use spec::{Class, Family, Kind, Node, Param, ParamError, Spec, Value};
-pub use vectors::{Pairs, Surface, SurfaceError};
+pub use spec::{
+    Class, Family, Parameter, ParameterError, ParameterKind, ParameterNode, ParameterValue, Spec,
+};
+pub use vectors::{DirectionPairs, Surface, SurfaceError};

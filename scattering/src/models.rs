@@ -4,12 +4,14 @@ use glam::DVec3;
 use num_complex::Complex64;
 
 use crate::{
-    Basis, Direction, Geometry, Incidence, Jones, Mode, Mueller, Node, ParamError, Side,
+    Basis, Direction, Geometry, Incidence, Jones, Mode, Mueller, ParameterError, ParameterNode,
+    Side,
     geometry::beams,
-    polarization::{Signed, Weights, change_basis},
-    spec::{self, Family, Member, Param, Spec, range},
+    polarization::{DirectionWeights, SignedWeights, change_basis},
+    spec::{self, Family, Member, Parameter, Spec, range},
 };
 
+mod batch;
 pub mod coating;
 pub mod diffuse;
 pub mod facet;
@@ -17,7 +19,6 @@ pub mod grating;
 pub mod instrument;
 pub mod particle;
 pub mod roughness;
-mod several;
 pub mod sum;
 
 /// A prepared model of scattering from a surface.
@@ -25,7 +26,7 @@ pub mod sum;
 /// Everything that depends on parameters alone was computed when it was built.
 pub trait Brdf: Send + Sync {
     /// What every model has: wavelength, substrate, side.
-    fn common(&self) -> &Common;
+    fn common(&self) -> &CommonParameters;
 
     /// Mueller BRDF (1/sr) in the model's own basis.
     ///
@@ -45,7 +46,12 @@ pub trait Brdf: Send + Sync {
     ///
     /// Overridden where the matrices of a sum need not be written; a sum in another order differs
     /// by its rounding.
-    fn sum(&self, incidence: &Incidence, directions: &[Direction], weights: Signed<'_>) -> Mueller {
+    fn sum(
+        &self,
+        incidence: &Incidence,
+        directions: &[Direction],
+        weights: SignedWeights<'_>,
+    ) -> Mueller {
         sum_of(directions, weights, |directions, out| {
             self.mueller_batch(incidence, directions, out);
         })
@@ -59,7 +65,7 @@ pub trait Brdf: Send + Sync {
     /// Cones with sharp rims into which light of one beam goes, such as the orders of a grating.
     ///
     /// Who integrates over directions would else miss narrow ones; rims may be approximate.
-    fn spots(&self, _: &Incidence) -> Vec<Spot> {
+    fn lobe_supports(&self, _: &Incidence) -> Vec<LobeSupport> {
         Vec::new()
     }
 
@@ -85,7 +91,7 @@ pub(crate) const BATCH: usize = 128;
 /// Σ w R(β)ᵀ M of the matrices that `evaluate` gives for parts of the directions.
 fn sum_of(
     directions: &[Direction],
-    weights: Signed<'_>,
+    weights: SignedWeights<'_>,
     evaluate: impl Fn(&[Direction], &mut [Mueller]),
 ) -> Mueller {
     let mut sum = Mueller::ZERO;
@@ -107,7 +113,7 @@ fn all_above(directions: &[Direction]) -> bool {
 
 /// A cone of directions with a sharp rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot {
+pub struct LobeSupport {
     /// The unit vector of its middle, as seen from its side of the surface.
     pub axis: DVec3,
     /// Its half angle, radians.
@@ -116,7 +122,7 @@ pub struct Spot {
 
 /// What every model has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Common {
+pub struct CommonParameters {
     /// Vacuum wavelength, µm.
     pub lambda: f64,
     /// Index of the substrate at that wavelength.
@@ -125,35 +131,35 @@ pub struct Common {
     pub side: Side,
 }
 
-/// The parameters of [`Common`]: the first group of every model.
-pub const COMMON: &[Param] = &[
-    Param::number("lambda", "0.532", "um", "Vacuum wavelength"),
-    Param::index("substrate", "(4.05,0.05)", "Index of the substrate"),
-    Param::integer(
+/// The parameters of [`CommonParameters`]: the first group of every model.
+pub const COMMON: &[Parameter] = &[
+    Parameter::number("lambda", "0.532", "um", "Vacuum wavelength"),
+    Parameter::index("substrate", "(4.05,0.05)", "Index of the substrate"),
+    Parameter::integer(
         "type",
         "0",
         "0 reflection, 1 transmission into, 2 reflection inside, 3 transmission out of the substrate",
     ),
 ];
 
-impl Common {
+impl CommonParameters {
     /// Reads the common parameters of `node`.
     ///
     /// # Errors
     ///
     /// For a wavelength that is not positive, a type outside 0–3, and an absorbing substrate
     /// with a type other than 0.
-    pub fn read(node: &Node) -> Result<Self, ParamError> {
+    pub fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let lambda = node.number("lambda");
         if !(lambda > 0.0 && lambda.is_finite()) {
-            return Err(ParamError::new("lambda", format!("{lambda} um is not a wavelength")));
+            return Err(ParameterError::new("lambda", format!("{lambda} um is not a wavelength")));
         }
         let number = node.integer("type");
         let side = Side::from_type(number)
-            .ok_or_else(|| ParamError::new("type", format!("{number} is not 0, 1, 2 or 3")))?;
+            .ok_or_else(|| ParameterError::new("type", format!("{number} is not 0, 1, 2 or 3")))?;
         let substrate = node.index("substrate").at(lambda);
         if side != Side::DownUp && substrate.im != 0.0 {
-            return Err(ParamError::new(
+            return Err(ParameterError::new(
                 "substrate",
                 format!("an absorbing substrate (k = {}) has no type {number}", substrate.im),
             ));
@@ -166,12 +172,12 @@ impl Common {
     /// # Errors
     ///
     /// For every type but 0.
-    pub fn only_reflection(&self, class: &str) -> Result<(), ParamError> {
+    pub fn only_reflection(&self, class: &str) -> Result<(), ParameterError> {
         if self.side == Side::DownUp {
             return Ok(());
         }
         let problem = format!("{class} has type 0 only, not {}", self.side.number());
-        Err(ParamError::new("type", problem))
+        Err(ParameterError::new("type", problem))
     }
 }
 
@@ -210,7 +216,7 @@ impl Member for dyn Brdf {
 /// # Errors
 ///
 /// What its parameters get wrong.
-pub fn build(node: &Node) -> Result<Model, ParamError> {
+pub fn build(node: &ParameterNode) -> Result<Model, ParameterError> {
     if node.mode == Mode::Sound {
         range::check(node, node.number("lambda"))?;
     }
@@ -222,12 +228,16 @@ pub fn build(node: &Node) -> Result<Model, ParamError> {
 /// # Errors
 ///
 /// What its parameters get wrong, and a wavelength, type or substrate that is not the parent's.
-pub fn nested(node: &Node, name: &str, parent: &Common) -> Result<Box<dyn Brdf>, ParamError> {
+pub fn nested(
+    node: &ParameterNode,
+    name: &str,
+    parent: &CommonParameters,
+) -> Result<Box<dyn Brdf>, ParameterError> {
     let brdf = node.member::<dyn Brdf>(name)?;
-    let Common { lambda, substrate, side } = *brdf.common();
+    let CommonParameters { lambda, substrate, side } = *brdf.common();
     let differs = |parameter: &str, own: String, parents: String| {
         let problem = format!("{own} is not {parents}, that of the model around it");
-        Err(ParamError::new(&format!("{name}.{parameter}"), problem))
+        Err(ParameterError::new(&format!("{name}.{parameter}"), problem))
     };
     if lambda != parent.lambda {
         return differs("lambda", format!("{lambda} um"), format!("{} um", parent.lambda));
@@ -255,7 +265,7 @@ impl Model {
     }
 
     /// What every model has.
-    pub fn common(&self) -> &Common {
+    pub fn common(&self) -> &CommonParameters {
         self.brdf.common()
     }
 
@@ -265,8 +275,8 @@ impl Model {
     }
 
     /// Cones with sharp rims into which light of one beam goes; none at and below the horizon.
-    pub fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
-        if incidence.is_above() { self.brdf.spots(incidence) } else { Vec::new() }
+    pub fn lobe_supports(&self, incidence: &Incidence) -> Vec<LobeSupport> {
+        if incidence.is_above() { self.brdf.lobe_supports(incidence) } else { Vec::new() }
     }
 
     /// Mueller BRDF (1/sr) for one geometry; zero at and below the horizon of either beam.
@@ -313,7 +323,7 @@ impl Model {
         &self,
         incidence: &Incidence,
         directions: &[Direction],
-        weights: &Weights,
+        weights: &DirectionWeights,
         basis: Basis,
     ) -> Mueller {
         assert_eq!(directions.len(), weights.count(), "one weight per direction");

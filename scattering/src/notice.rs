@@ -10,12 +10,12 @@ pub enum Notice {
     /// The result differs from that of NIST's library by this defect.
     Defect(Defect),
     /// The parameters lie outside of the range in which the model is right.
-    Limit(Limit),
+    Limit(ModelLimit),
 }
 
 /// A limit of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Limit {
+pub enum ModelLimit {
     /// Particles of a coating are so close that they do not scatter independently.
     ParticlesTooDense,
     /// Flakes of a coating are so many that they cannot tilt as their slopes say.
@@ -26,7 +26,7 @@ pub enum Limit {
     Unrealizable,
 }
 
-impl Limit {
+impl ModelLimit {
     /// What is wrong, and what could be done.
     pub fn describe(self) -> &'static str {
         match self {
@@ -56,8 +56,8 @@ impl From<Defect> for Notice {
     }
 }
 
-impl From<Limit> for Notice {
-    fn from(limit: Limit) -> Self {
+impl From<ModelLimit> for Notice {
+    fn from(limit: ModelLimit) -> Self {
         Self::Limit(limit)
     }
 }

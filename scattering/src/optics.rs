@@ -5,5 +5,5 @@ pub mod first_order;
 mod index;
 mod table;
 
-pub use index::Index;
-pub use table::{Axis, Rise, Table};
+pub use index::RefractiveIndex;
+pub use table::{AbscissaScale, RealFunction, TableInterpolation};

@@ -41,13 +41,13 @@ impl Member for dyn Phase {
 mod tests {
     use std::f64::consts::{PI, TAU};
 
-    use crate::{Mode, Node, Value, spec, special::gauss};
+    use crate::{Mode, ParameterNode, ParameterValue, spec, special::gauss};
 
     /// ∫ p dΩ of the class `name`.
     fn integral(name: &str, mode: Mode, values: &[(&str, f64)]) -> f64 {
-        let mut node = Node::with_defaults(spec::find_class(name).unwrap(), mode);
+        let mut node = ParameterNode::with_defaults(spec::find_class(name).unwrap(), mode);
         for (parameter, value) in values {
-            node = node.with(parameter, Value::Number(*value)).unwrap();
+            node = node.with(parameter, ParameterValue::Number(*value)).unwrap();
         }
         let phase = spec::build::<dyn super::Phase>(&node).unwrap();
         // In the angle, because a Gaussian of θ is not smooth in cos θ at θ = π.
@@ -102,8 +102,8 @@ mod tests {
             ("Reynolds_McCormick_Phase_Function", "alpha", f64::INFINITY),
             ("Gaussian_Phase_Function", "width", 0.0),
         ] {
-            let node = Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
-                .with(parameter, Value::Number(value))
+            let node = ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+                .with(parameter, ParameterValue::Number(value))
                 .unwrap();
             let error = spec::build::<dyn super::Phase>(&node).err().expect(name);
             assert_eq!(error.parameter, parameter);

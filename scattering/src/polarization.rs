@@ -7,9 +7,9 @@ mod stokes;
 mod weights;
 
 pub(crate) use basis::is_normal;
-pub use basis::{Basis, Beams, Frame, change_basis, perp};
+pub use basis::{Basis, BeamPair, TransverseFrame, change_basis, perp};
 pub use jones::Jones;
 pub(crate) use jones::{elements, muellers};
 pub use mueller::Mueller;
 pub use stokes::Stokes;
-pub use weights::{Signed, Weights};
+pub use weights::{DirectionWeights, SignedWeights};

@@ -1,9 +1,9 @@
 //! Mueller-valued phase functions with coefficients of absorption and scattering.
 
 use crate::{
-    Mueller, Node,
+    Mueller, ParameterNode,
     phase::Phase,
-    spec::{Family, Member, Param, ParamError, Spec},
+    spec::{Family, Member, Parameter, ParameterError, Spec},
 };
 
 pub mod code_whitney;
@@ -43,21 +43,21 @@ impl Member for dyn PolarizedPhase {
 }
 
 /// The parameters of phase matrices that multiply a scalar phase function.
-pub const SCALAR: &[Param] = &[
-    Param::member(
+pub const SCALAR: &[Parameter] = &[
+    Parameter::member(
         "phase_function",
         Family::Phase,
         "Phase_Function",
         "Henyey_Greenstein_Phase_Function",
         "Scalar phase function",
     ),
-    Param::number(
+    Parameter::number(
         "log_absorption",
         "-20",
         "ln(1/um)",
         "Natural logarithm of the absorption coefficient",
     ),
-    Param::number(
+    Parameter::number(
         "log_scattering",
         "0",
         "ln(1/um)",
@@ -66,14 +66,14 @@ pub const SCALAR: &[Param] = &[
 ];
 
 /// A scalar phase function with the coefficients that stand beside it.
-struct Scalar {
+struct ScalarPhase {
     phase: Box<dyn Phase>,
     absorption: f64,
     scattering: f64,
 }
 
-impl Scalar {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl ScalarPhase {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
             phase: node.member::<dyn Phase>("phase_function")?,
             absorption: exponential(node, "log_absorption")?,
@@ -82,12 +82,12 @@ impl Scalar {
     }
 }
 
-fn exponential(node: &Node, name: &str) -> Result<f64, ParamError> {
+fn exponential(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let log = node.number(name);
     if log.exp().is_finite() {
         return Ok(log.exp());
     }
-    Err(ParamError::new(name, format!("the exponential of {log} is no coefficient")))
+    Err(ParameterError::new(name, format!("the exponential of {log} is no coefficient")))
 }
 
 #[cfg(test)]
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn every_default_scatters_all_it_takes_from_the_beam() {
         for spec in ALL {
-            let node = Node::with_defaults(&spec.class, Mode::Sound);
+            let node = ParameterNode::with_defaults(&spec.class, Mode::Sound);
             // Spheres of up to 100 µm have lobes that few nodes do not see.
             if spec.class.name == "Distributed_Mie_Phase_Function" {
                 continue;

@@ -5,7 +5,7 @@
 //! covered with independent features at random places (mesas, pyramids, dimples) are the areal
 //! density of the features times |FT|² of one of them.
 
-use crate::spec::{Family, Member, Node, ParamError, Spec};
+use crate::spec::{Family, Member, ParameterError, ParameterNode, Spec};
 
 pub mod abc;
 pub mod double;
@@ -53,12 +53,12 @@ impl Member for dyn Psd {
 }
 
 /// The number `name`, which must not make the density negative.
-fn strength(node: &Node, name: &str) -> Result<f64, ParamError> {
+fn strength(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let value = node.number(name);
     if value >= 0.0 {
         return Ok(value);
     }
-    Err(ParamError::new(name, format!("{value} would make the spectral density negative")))
+    Err(ParameterError::new(name, format!("{value} would make the spectral density negative")))
 }
 
 /// sin x / x.
@@ -69,17 +69,18 @@ fn sinc(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use crate::{
-        Mode, Node,
+        Mode, ParameterNode,
         psd::{ALL, Psd},
-        spec::{self, Value},
+        spec::{self, ParameterValue},
     };
 
     /// A class at its defaults but for these numbers.
     pub(super) fn build(name: &str, mode: Mode, numbers: &[(&str, f64)]) -> Box<dyn Psd> {
         let class = spec::find_class(name).unwrap();
-        let node = numbers.iter().fold(Node::with_defaults(class, mode), |node, (name, x)| {
-            node.with(name, Value::Number(*x)).unwrap()
-        });
+        let node =
+            numbers.iter().fold(ParameterNode::with_defaults(class, mode), |node, (name, x)| {
+                node.with(name, ParameterValue::Number(*x)).unwrap()
+            });
         spec::build::<dyn Psd>(&node).unwrap()
     }
 
@@ -109,8 +110,8 @@ mod tests {
             ("Triangular_Pyramid_PSD_Function", "density"),
         ] {
             let class = spec::find_class(name).unwrap();
-            let node = Node::with_defaults(class, Mode::Sound)
-                .with(parameter, Value::Number(-1.0))
+            let node = ParameterNode::with_defaults(class, Mode::Sound)
+                .with(parameter, ParameterValue::Number(-1.0))
                 .unwrap();
             let error = spec::build::<dyn Psd>(&node).err().unwrap();
             assert_eq!(error.parameter, parameter);

@@ -19,8 +19,8 @@ use faer::Mat;
 use num_complex::Complex64;
 
 use crate::Jones;
-use layer::{Operators, Pair};
-use slab::Slab;
+use layer::{CoupledOperators, LayerOperators};
+use slab::SymmetricSlab;
 
 mod dense;
 pub mod layer;
@@ -28,7 +28,7 @@ pub mod slab;
 pub mod toeplitz;
 
 /// A complex matrix; its rows and columns are the harmonics.
-pub type Matrix = Mat<Complex64>;
+pub type ComplexMatrix = Mat<Complex64>;
 
 const I: Complex64 = Complex64::I;
 const ONE: Complex64 = Complex64::ONE;
@@ -45,9 +45,9 @@ const ACROSS: f64 = 1e-15;
 
 /// A periodic structure at one wavelength, prepared for any incident direction.
 #[derive(Clone, Debug)]
-pub struct Structure {
+pub struct PeriodicStructure {
     /// Layers, the one that the light meets first in front.
-    pub layers: Vec<Operators>,
+    pub layers: Vec<LayerOperators>,
     /// Index of the medium the light comes from; real.
     pub incident: f64,
     /// Index of the medium behind.
@@ -60,7 +60,7 @@ pub struct Structure {
 
 /// One diffracted plane wave that carries power away.
 #[derive(Clone, Copy, Debug)]
-pub struct Order {
+pub struct DiffractionOrder {
     /// Lateral unit-vector components of its direction, in the frame of the structure.
     pub lateral: (f64, f64),
     /// |cos θ| of its direction.
@@ -71,7 +71,7 @@ pub struct Order {
 
 /// The incident plane wave in the frame of the structure.
 #[derive(Clone, Copy, Debug)]
-pub struct Wave {
+pub struct IncidentWave {
     /// Lateral wave vector in units of k₀: index times sine.
     pub lateral: (f64, f64),
     /// cos θ > 0.
@@ -80,18 +80,18 @@ pub struct Wave {
     pub normal_s: (f64, f64),
 }
 
-impl Structure {
+impl PeriodicStructure {
     /// The waves reflected (`behind` false) or transmitted (true), light coming down.
-    pub fn diffract(&self, wave: &Wave, behind: bool) -> Vec<Order> {
+    pub fn diffract(&self, wave: &IncidentWave, behind: bool) -> Vec<DiffractionOrder> {
         let lateral: Vec<(f64, f64)> =
             self.harmonics.iter().map(|g| (wave.lateral.0 + g.0, wave.lateral.1 + g.1)).collect();
         let across = lateral.iter().all(|k| k.1.abs() <= ACROSS);
-        let fields = if across && self.layers.iter().all(Operators::is_diagonal) {
+        let fields = if across && self.layers.iter().all(LayerOperators::is_diagonal) {
             self.fields_across(&lateral, behind)
         } else {
             self.fields(&lateral, behind)
         };
-        let exit = Exit { wave, index: self.incident, behind, exit: self.exit_index(behind) };
+        let exit = ExitMedium { wave, index: self.incident, behind, exit: self.exit_index(behind) };
         lateral.iter().zip(&fields).filter_map(|(&k, field)| exit.order(k, field)).collect()
     }
 
@@ -104,20 +104,20 @@ impl Structure {
     }
 
     /// E_x and E_y per harmonic for E_x = 1 and E_y = 1 in the zeroth, s and p by themselves.
-    fn fields_across(&self, lateral: &[(f64, f64)], behind: bool) -> Vec<Field> {
+    fn fields_across(&self, lateral: &[(f64, f64)], behind: bool) -> Vec<FieldMatrix> {
         let kx: Vec<f64> = lateral.iter().map(|k| k.0).collect();
         let (above, below) = (self.normal_waves(lateral, false), self.normal_waves(lateral, true));
         let (eps_above, eps_below) = self.permittivities();
         let unit = unit_columns(kx.len(), &[self.zeroth]);
 
-        let s = Ladder::new(&self.layers, |l| l.across_s(&kx), &diagonal(&below));
+        let s = LayerCascade::new(&self.layers, |l| l.across_s(&kx), &diagonal(&below));
         let ey = s.respond(&diagonal(&above), &unit, behind);
 
         let admittance = |kz: &[Complex64], eps: Complex64| -> Vec<Complex64> {
             kz.iter().map(|kz| kz / eps).collect()
         };
         let (y_above, y_below) = (admittance(&above, eps_above), admittance(&below, eps_below));
-        let p = Ladder::new(&self.layers, |l| l.across_p(&kx), &diagonal(&y_below));
+        let p = LayerCascade::new(&self.layers, |l| l.across_p(&kx), &diagonal(&y_below));
         let hy = p.respond(&diagonal(&y_above), &unit, behind);
         // E_x of the incident wave of H_y = 1 is −y, that of an upward wave +y, downward −y.
         let incident = -y_above[self.zeroth];
@@ -127,12 +127,12 @@ impl Structure {
     }
 
     /// The same for any direction, where s and p mix.
-    fn fields(&self, lateral: &[(f64, f64)], behind: bool) -> Vec<Field> {
+    fn fields(&self, lateral: &[(f64, f64)], behind: bool) -> Vec<FieldMatrix> {
         let n = lateral.len();
         let (eps_above, eps_below) = self.permittivities();
         let y_above = admittance(lateral, &self.normal_waves(lateral, false), eps_above);
         let y_below = admittance(lateral, &self.normal_waves(lateral, true), eps_below);
-        let ladder = Ladder::new(&self.layers, |l| l.conical(lateral), &y_below);
+        let ladder = LayerCascade::new(&self.layers, |l| l.conical(lateral), &y_below);
         let unit = unit_columns(2 * n, &[self.zeroth, n + self.zeroth]);
         let e = ladder.respond(&y_above, &unit, behind);
         (0..n).map(|m| [[e[(m, 0)], e[(m, 1)]], [e[(n + m, 0)], e[(n + m, 1)]]]).collect()
@@ -151,7 +151,7 @@ impl Structure {
 }
 
 /// `[[E_x from E_x, E_x from E_y], [E_y from E_x, E_y from E_y]]`.
-type Field = [[Complex64; 2]; 2];
+type FieldMatrix = [[Complex64; 2]; 2];
 
 /// √(ε − k²) with Im ≥ 0.
 fn normal_wave(epsilon: Complex64, (kx, ky): (f64, f64)) -> Complex64 {
@@ -161,9 +161,9 @@ fn normal_wave(epsilon: Complex64, (kx, ky): (f64, f64)) -> Complex64 {
 }
 
 /// V = Y U of upward waves in a homogeneous medium: 2×2 per harmonic.
-fn admittance(lateral: &[(f64, f64)], kz: &[Complex64], epsilon: Complex64) -> Matrix {
+fn admittance(lateral: &[(f64, f64)], kz: &[Complex64], epsilon: Complex64) -> ComplexMatrix {
     let n = lateral.len();
-    let mut y = Matrix::zeros(2 * n, 2 * n);
+    let mut y = ComplexMatrix::zeros(2 * n, 2 * n);
     for (m, (&(kx, ky), &kz)) in lateral.iter().zip(kz).enumerate() {
         y[(m, m)] = (epsilon - ky * ky) / kz;
         y[(m, n + m)] = kx * ky / kz;
@@ -173,16 +173,16 @@ fn admittance(lateral: &[(f64, f64)], kz: &[Complex64], epsilon: Complex64) -> M
     y
 }
 
-fn diagonal(values: &[Complex64]) -> Matrix {
-    let mut m = Matrix::zeros(values.len(), values.len());
+fn diagonal(values: &[Complex64]) -> ComplexMatrix {
+    let mut m = ComplexMatrix::zeros(values.len(), values.len());
     for (k, value) in values.iter().enumerate() {
         m[(k, k)] = *value;
     }
     m
 }
 
-fn unit_columns(rows: usize, at: &[usize]) -> Matrix {
-    let mut m = Matrix::zeros(rows, at.len());
+fn unit_columns(rows: usize, at: &[usize]) -> ComplexMatrix {
+    let mut m = ComplexMatrix::zeros(rows, at.len());
     for (column, row) in at.iter().enumerate() {
         m[(*row, column)] = ONE;
     }
@@ -190,22 +190,26 @@ fn unit_columns(rows: usize, at: &[usize]) -> Matrix {
 }
 
 /// The layers added up from behind.
-struct Ladder {
+struct LayerCascade {
     /// Reflection by all of it, against the reference admittance 1.
-    reflection: Matrix,
+    reflection: ComplexMatrix,
     /// Per layer, front first: downward waves behind it from those before it.
-    passage: Vec<Matrix>,
+    passage: Vec<ComplexMatrix>,
     /// Reflection by the medium behind.
-    last: Matrix,
+    last: ComplexMatrix,
 }
 
-impl Ladder {
-    fn new(layers: &[Operators], pair: impl Fn(&Operators) -> Pair, behind: &Matrix) -> Self {
+impl LayerCascade {
+    fn new(
+        layers: &[LayerOperators],
+        pair: impl Fn(&LayerOperators) -> CoupledOperators,
+        behind: &ComplexMatrix,
+    ) -> Self {
         let last = dense::cayley(-ONE, behind.clone());
         let mut reflection = last.clone();
         let mut passage = Vec::with_capacity(layers.len());
         for layer in layers.iter().rev().filter(|layer| layer.depth > 0.0) {
-            let (r, through) = Slab::new(&pair(layer), layer.depth).above(&reflection);
+            let (r, through) = SymmetricSlab::new(&pair(layer), layer.depth).above(&reflection);
             reflection = r;
             passage.push(through);
         }
@@ -214,7 +218,12 @@ impl Ladder {
     }
 
     /// U reflected, or transmitted to `behind`, for the columns of U that come in.
-    fn respond(&self, front: &Matrix, incoming: &Matrix, behind: bool) -> Matrix {
+    fn respond(
+        &self,
+        front: &ComplexMatrix,
+        incoming: &ComplexMatrix,
+        behind: bool,
+    ) -> ComplexMatrix {
         let one = dense::identity(front.nrows());
         let (plus, minus) = (&one + front, &one - front);
         let r = &self.reflection;
@@ -233,16 +242,16 @@ impl Ladder {
 }
 
 /// Where the diffracted waves go.
-struct Exit<'a> {
-    wave: &'a Wave,
+struct ExitMedium<'a> {
+    wave: &'a IncidentWave,
     index: f64,
     behind: bool,
     exit: f64,
 }
 
-impl Exit<'_> {
+impl ExitMedium<'_> {
     /// The order with lateral wave vector `k` and tangential field `e`, if it carries power.
-    fn order(&self, k: (f64, f64), e: &Field) -> Option<Order> {
+    fn order(&self, k: (f64, f64), e: &FieldMatrix) -> Option<DiffractionOrder> {
         let lateral = (k.0 / self.exit, k.1 / self.exit);
         let cos2 = 1.0 - lateral.0 * lateral.0 - lateral.1 * lateral.1;
         if !(self.exit > 0.0 && cos2 > GRAZING * GRAZING) {
@@ -262,7 +271,7 @@ impl Exit<'_> {
         let (fs, fp) = (field(from_s), field(from_p));
         let jones = Jones { ss: to_s(fs), ps: to_s(fp), sp: to_p(fs), pp: to_p(fp) };
         let power = self.exit * cos / (self.index * self.wave.cos);
-        Some(Order { lateral, cos, jones: jones.scaled(power.sqrt()) })
+        Some(DiffractionOrder { lateral, cos, jones: jones.scaled(power.sqrt()) })
     }
 }
 

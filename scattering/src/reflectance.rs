@@ -1,7 +1,7 @@
 //! Spectral reflectances of diffuse bodies.
 
 use crate::{
-    Mode, Node, ParamError,
+    Mode, ParameterError, ParameterNode,
     spec::{Family, Member, Spec},
 };
 
@@ -20,11 +20,11 @@ pub trait Reflectance: Send + Sync {
 /// # Errors
 ///
 /// What its own parameters get wrong; in a sound build a value that is not finite.
-pub fn read(node: &Node, name: &str, lambda: f64) -> Result<f64, ParamError> {
+pub fn read(node: &ParameterNode, name: &str, lambda: f64) -> Result<f64, ParameterError> {
     let reflectance = node.member::<dyn Reflectance>(name)?.at(lambda);
     if node.mode == Mode::Sound && !reflectance.is_finite() {
         let problem = format!("{reflectance} at {lambda} um is not a reflectance");
-        return Err(ParamError::new(name, problem));
+        return Err(ParameterError::new(name, problem));
     }
     Ok(reflectance)
 }

@@ -1,7 +1,7 @@
 //! Particles in free space.
 //!
 //! A particle that looks the same from every side is described by its amplitude matrix between
-//! the directions ∥ and ⊥ to the scattering plane, [`Round`]; that gives it the matrix between
+//! the directions ∥ and ⊥ to the scattering plane, [`SphericalScatterer`]; that gives it the matrix between
 //! any two bases of [`Scatterer`]. Amplitudes are those of Bohren & Huffman: the scattered field
 //! is S E e^{ikr}/(−ikr), so that |S|²/k² is the differential cross-section.
 
@@ -10,8 +10,8 @@ use num_complex::Complex64;
 
 use crate::{
     Jones,
-    polarization::{Frame, perp},
-    spec::{Family, Member, Node, Param, ParamError, Spec},
+    polarization::{TransverseFrame, perp},
+    spec::{Family, Member, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 pub mod axisymmetric;
@@ -34,19 +34,25 @@ pub trait Scatterer: Send + Sync {
 
     /// Scattering matrix between the beams `k_in` and `k_out` (unit vectors in the frame of the
     /// particle), dimensionless: |S|²/k² is the differential cross-section. Output and input are
-    /// in the frames (s, p) = (`Frame::first`, `Frame::second`) given.
-    fn jones(&self, k_in: DVec3, k_out: DVec3, frame_in: &Frame, frame_out: &Frame) -> Jones;
+    /// in the frames (s, p) = (`TransverseFrame::first`, `TransverseFrame::second`) given.
+    fn jones(
+        &self,
+        k_in: DVec3,
+        k_out: DVec3,
+        frame_in: &TransverseFrame,
+        frame_out: &TransverseFrame,
+    ) -> Jones;
 
     /// The particle as one that looks the same from every side, if it does.
-    fn round(&self) -> Option<&dyn Round> {
+    fn round(&self) -> Option<&dyn SphericalScatterer> {
         None
     }
 }
 
 /// A particle that looks the same from every side: only the scattering angle counts.
-pub trait Round: Send + Sync {
+pub trait SphericalScatterer: Send + Sync {
     /// Where it lies.
-    fn surroundings(&self) -> &Surroundings;
+    fn surroundings(&self) -> &HostMedium;
 
     /// Amplitude matrix at the cosine of the scattering angle, ∥ in the place of s and ⊥ in that
     /// of p: `ss` = S2, `pp` = S1, `ps` = S3, `sp` = S4.
@@ -69,7 +75,7 @@ pub struct CrossSections {
     pub back: f64,
 }
 
-impl<T: Round> Scatterer for T {
+impl<T: SphericalScatterer> Scatterer for T {
     fn lambda(&self) -> f64 {
         self.surroundings().lambda
     }
@@ -78,12 +84,18 @@ impl<T: Round> Scatterer for T {
         self.surroundings().medium
     }
 
-    fn jones(&self, k_in: DVec3, k_out: DVec3, frame_in: &Frame, frame_out: &Frame) -> Jones {
+    fn jones(
+        &self,
+        k_in: DVec3,
+        k_out: DVec3,
+        frame_in: &TransverseFrame,
+        frame_out: &TransverseFrame,
+    ) -> Jones {
         let cos = k_in.dot(k_out).clamp(-1.0, 1.0);
         between(&self.amplitudes(cos), k_in, k_out, frame_in, frame_out)
     }
 
-    fn round(&self) -> Option<&dyn Round> {
+    fn round(&self) -> Option<&dyn SphericalScatterer> {
         Some(self)
     }
 }
@@ -93,25 +105,30 @@ pub fn between(
     amplitudes: &Jones,
     k_in: DVec3,
     k_out: DVec3,
-    frame_in: &Frame,
-    frame_out: &Frame,
+    frame_in: &TransverseFrame,
+    frame_out: &TransverseFrame,
 ) -> Jones {
-    PlaneTurn::new(k_in, k_out, frame_in, frame_out).apply(amplitudes)
+    ScatteringPlaneRotation::new(k_in, k_out, frame_in, frame_out).apply(amplitudes)
 }
 
 /// The changes of basis into the scattering plane of two beams and out of it.
 #[derive(Clone, Copy, Debug)]
-pub struct PlaneTurn {
+pub struct ScatteringPlaneRotation {
     into: Jones,
     out: Jones,
 }
 
-impl PlaneTurn {
+impl ScatteringPlaneRotation {
     /// Between the beams `k_in` and `k_out` in the frames given.
-    pub fn new(k_in: DVec3, k_out: DVec3, frame_in: &Frame, frame_out: &Frame) -> Self {
+    pub fn new(
+        k_in: DVec3,
+        k_out: DVec3,
+        frame_in: &TransverseFrame,
+        frame_out: &TransverseFrame,
+    ) -> Self {
         let across = perp(k_in, k_out);
-        let plane_in = Frame { first: across.cross(k_in), second: across };
-        let plane_out = Frame { first: across.cross(k_out), second: across };
+        let plane_in = TransverseFrame { first: across.cross(k_in), second: across };
+        let plane_out = TransverseFrame { first: across.cross(k_out), second: across };
         Self { into: frame_in.to(&plane_in), out: plane_out.to(frame_out) }
     }
 
@@ -123,24 +140,24 @@ impl PlaneTurn {
 
 /// The medium around a particle at one wavelength.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surroundings {
+pub struct HostMedium {
     /// Vacuum wavelength, µm.
     pub lambda: f64,
     /// Index of the medium.
     pub medium: Complex64,
 }
 
-impl Surroundings {
+impl HostMedium {
     /// Reads the parameters [`FREE_SPACE`] of `node`.
     ///
     /// # Errors
     ///
     /// For a wavelength or an index that is not positive.
-    pub fn read(node: &Node) -> Result<Self, ParamError> {
+    pub fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let lambda = positive(node, "lambda")?;
         let medium = node.index("medium").at(lambda);
         if !(medium.re > 0.0 && medium.re.is_finite()) {
-            return Err(ParamError::new(
+            return Err(ParameterError::new(
                 "medium",
                 format!("{medium} is not the index of a medium"),
             ));
@@ -158,7 +175,11 @@ impl Surroundings {
     /// # Errors
     ///
     /// For the index 0.
-    pub fn relative_index(&self, node: &Node, name: &str) -> Result<Complex64, ParamError> {
+    pub fn relative_index(
+        &self,
+        node: &ParameterNode,
+        name: &str,
+    ) -> Result<Complex64, ParameterError> {
         self.relative(node.index(name).at(self.lambda), name)
     }
 
@@ -167,11 +188,11 @@ impl Surroundings {
     /// # Errors
     ///
     /// For the index 0.
-    pub fn relative(&self, n: Complex64, name: &str) -> Result<Complex64, ParamError> {
+    pub fn relative(&self, n: Complex64, name: &str) -> Result<Complex64, ParameterError> {
         if n.norm() > 0.0 && n.is_finite() {
             return Ok(n / self.medium.re);
         }
-        Err(ParamError::new(name, format!("{n} is not an index of refraction")))
+        Err(ParameterError::new(name, format!("{n} is not an index of refraction")))
     }
 
     /// The radius (µm) of a sphere whose parts have the indices `relative` to the medium.
@@ -179,7 +200,11 @@ impl Surroundings {
     /// # Errors
     ///
     /// If it is not positive, or if the sphere is too large for a series.
-    pub fn radius(&self, node: &Node, relative: &[Complex64]) -> Result<f64, ParamError> {
+    pub fn radius(
+        &self,
+        node: &ParameterNode,
+        relative: &[Complex64],
+    ) -> Result<f64, ParameterError> {
         let radius = positive(node, "radius")?;
         let largest = relative.iter().map(|m| m.norm()).fold(1.0, f64::max);
         let size = self.wave_number() * radius * largest;
@@ -190,7 +215,7 @@ impl Surroundings {
             "a sphere of {radius} um has the size 2 pi n r/lambda = {size:.3e}; \
              the series goes up to {LARGEST_SPHERE:e}"
         );
-        Err(ParamError::new("radius", problem))
+        Err(ParameterError::new("radius", problem))
     }
 }
 
@@ -202,24 +227,24 @@ const LARGEST_SPHERE: f64 = 1e7;
 /// # Errors
 ///
 /// If it is not.
-pub fn positive(node: &Node, name: &str) -> Result<f64, ParamError> {
+pub fn positive(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let x = node.number(name);
     if x > 0.0 && x.is_finite() {
         return Ok(x);
     }
-    Err(ParamError::new(name, format!("{x} um is not positive")))
+    Err(ParameterError::new(name, format!("{x} um is not positive")))
 }
 
 /// The parameters of every particle in free space.
-pub const FREE_SPACE: &[Param] = &[
-    Param::number("lambda", "0.532", "um", "Vacuum wavelength"),
-    Param::index("medium", "(1,0)", "Index of the surrounding medium"),
+pub const FREE_SPACE: &[Parameter] = &[
+    Parameter::number("lambda", "0.532", "um", "Vacuum wavelength"),
+    Parameter::index("medium", "(1,0)", "Index of the surrounding medium"),
 ];
 
 /// The parameters of every sphere.
-pub const SPHERE: &[Param] = &[
-    Param::number("radius", "0.05", "um", "Outer radius"),
-    Param::index("sphere", "(1.59,0)", "Index of the sphere, or of its core"),
+pub const SPHERE: &[Parameter] = &[
+    Parameter::number("radius", "0.05", "um", "Outer radius"),
+    Parameter::index("sphere", "(1.59,0)", "Index of the sphere, or of its core"),
 ];
 
 /// All of them, in the order they are listed to users.
@@ -246,7 +271,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::{Mode, Value, optics::Index, spec, special::gauss};
+    use crate::{Mode, ParameterValue, optics::RefractiveIndex, spec, special::gauss};
 
     const SPHERES: [&str; 5] = [
         "MieScatterer",
@@ -257,9 +282,11 @@ mod tests {
     ];
 
     fn build(name: &str, radius: f64, n: (f64, f64)) -> Box<dyn Scatterer> {
-        let node = Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
-            .with("radius", Value::Number(radius))
-            .and_then(|node| node.with("sphere", Value::Index(Index::constant(n.0, n.1))))
+        let node = ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+            .with("radius", ParameterValue::Number(radius))
+            .and_then(|node| {
+                node.with("sphere", ParameterValue::Index(RefractiveIndex::constant(n.0, n.1)))
+            })
             .unwrap();
         spec::build::<dyn Scatterer>(&node).unwrap()
     }
@@ -312,10 +339,10 @@ mod tests {
     fn the_amplitudes_of_forward_and_backward_light_need_no_plane() {
         let particle = build("MieScatterer", 0.3, (1.5, 0.01));
         let k = DVec3::new(0.6, 0.0, -0.8);
-        let frame = Frame::psps(k);
+        let frame = TransverseFrame::psps(k);
         let forward = particle.jones(k, k, &frame, &frame);
         assert!((forward.ss - forward.pp).norm() < 1e-14 && forward.ps.norm() < 1e-14);
-        let back = particle.jones(k, -k, &frame, &Frame::psps(-k));
+        let back = particle.jones(k, -k, &frame, &TransverseFrame::psps(-k));
         assert!(back.ps.norm() < 1e-14 && back.ss.norm() > 0.0);
     }
 
@@ -323,9 +350,10 @@ mod tests {
     fn bad_parameters_are_refused() {
         for name in SPHERES {
             for (parameter, value) in [("radius", 0.0), ("radius", f64::NAN), ("lambda", -1.0)] {
-                let node = Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
-                    .with(parameter, Value::Number(value))
-                    .unwrap();
+                let node =
+                    ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+                        .with(parameter, ParameterValue::Number(value))
+                        .unwrap();
                 let error = spec::build::<dyn Scatterer>(&node).err().unwrap();
                 assert_eq!(error.parameter, parameter, "{name}");
             }

@@ -3,7 +3,7 @@
 use crate::{
     Direction, Incidence,
     slope::SlopeDistribution,
-    spec::{Family, Member, ParamError, Spec},
+    spec::{Family, Member, ParameterError, Spec},
 };
 
 pub mod maxwell_beard;
@@ -32,7 +32,7 @@ pub trait Shadow: Send + Sync {
     /// # Errors
     ///
     /// If a parameter is left open and the slopes do not determine it.
-    fn adapt(&mut self, _: &dyn SlopeDistribution) -> Result<(), ParamError> {
+    fn adapt(&mut self, _: &dyn SlopeDistribution) -> Result<(), ParameterError> {
         Ok(())
     }
 }
@@ -58,15 +58,15 @@ impl Member for dyn Shadow {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Node, spec};
+    use crate::{Mode, ParameterNode, spec};
 
     #[test]
     fn every_fraction_is_the_same_for_the_reversed_path() {
         for class in Family::Shadow.classes() {
-            let node = Node::with_defaults(class, Mode::Sound);
+            let node = ParameterNode::with_defaults(class, Mode::Sound);
             let mut shadow = spec::build::<dyn Shadow>(&node).unwrap();
             let slopes = spec::find_class("Anisotropic_Gaussian_Slope_Distribution_Function");
-            let slopes = Node::with_defaults(slopes.unwrap(), Mode::Sound);
+            let slopes = ParameterNode::with_defaults(slopes.unwrap(), Mode::Sound);
             shadow.adapt(&*spec::build::<dyn SlopeDistribution>(&slopes).unwrap()).unwrap();
             for (a, b, phi, r) in [(0.5, 1.2, 0.7, 0.3), (1.4, 0.1, -2.3, 1.1)] {
                 let there = shadow.fraction(&Incidence::new(a, r), &Direction::new(b, phi));

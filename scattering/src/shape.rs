@@ -7,8 +7,8 @@
 use std::f64::consts::PI;
 
 use crate::{
-    Node as Params, ParamError,
-    spec::{Family, Member, Param, Spec},
+    ParameterError, ParameterNode,
+    spec::{Family, Member, Parameter, Spec},
     special::gauss,
 };
 
@@ -24,12 +24,12 @@ pub mod table;
 /// A body of revolution.
 #[derive(Clone, Debug)]
 pub struct Shape {
-    nodes: Vec<Node>,
+    nodes: Vec<SurfaceNode>,
 }
 
 /// A node of the outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Node {
+pub struct SurfaceNode {
     /// Polar angle, radians.
     pub theta: f64,
     /// Weight of the node in an integral over θ.
@@ -44,11 +44,11 @@ pub struct Node {
 const MOST: i32 = 10_000;
 
 /// The parameter of every shape.
-pub(crate) const SHAPE: [Param; 1] =
-    [Param::integer("npoints", "100", "Nodes of the outline from pole to pole")];
+pub(crate) const SHAPE: [Parameter; 1] =
+    [Parameter::integer("npoints", "100", "Nodes of the outline from pole to pole")];
 
 /// The parameter of shapes that depart from a simpler one.
-pub(crate) const RENORM: [Param; 1] = [Param::integer(
+pub(crate) const RENORM: [Parameter; 1] = [Parameter::integer(
     "renorm",
     "0",
     "1: scaled to the volume of the body without rounded corners or waves",
@@ -67,14 +67,14 @@ impl Shape {
             let count = (points as f64 * (ends[1] - ends[0]) / PI).max(0.0) as usize;
             for (theta, weight) in gauss::legendre(count, ends[0], ends[1]) {
                 let (r, slope) = profile(piece, theta);
-                nodes.push(Node { theta, weight, r, slope });
+                nodes.push(SurfaceNode { theta, weight, r, slope });
             }
         }
         Self { nodes }
     }
 
     /// The nodes, in rising order of θ.
-    pub fn nodes(&self) -> &[Node] {
+    pub fn nodes(&self) -> &[SurfaceNode] {
         &self.nodes
     }
 
@@ -91,7 +91,7 @@ impl Shape {
 
     /// Volume, µm³.
     pub fn volume(&self) -> f64 {
-        let part = |node: &Node| node.weight * node.theta.sin() * node.r.powi(3);
+        let part = |node: &SurfaceNode| node.weight * node.theta.sin() * node.r.powi(3);
         2.0 * PI / 3.0 * self.nodes.iter().map(part).sum::<f64>()
     }
 
@@ -104,7 +104,7 @@ impl Shape {
     }
 
     /// The same scaled to `volume` µm³ if the parameter `renorm` asks for it.
-    pub(crate) fn renormalized(self, params: &Params, volume: impl FnOnce() -> f64) -> Self {
+    pub(crate) fn renormalized(self, params: &ParameterNode, volume: impl FnOnce() -> f64) -> Self {
         if params.integer("renorm") == 0 {
             return self;
         }
@@ -123,20 +123,21 @@ impl Shape {
     }
 
     /// The shape, if it has nodes and all of them are off the origin.
-    pub(crate) fn checked(self, parameter: &str) -> Result<Box<Self>, ParamError> {
-        let good = |node: &Node| node.r > 0.0 && node.r.is_finite() && node.slope.is_finite();
+    pub(crate) fn checked(self, parameter: &str) -> Result<Box<Self>, ParameterError> {
+        let good =
+            |node: &SurfaceNode| node.r > 0.0 && node.r.is_finite() && node.slope.is_finite();
         if !self.nodes.is_empty() && self.nodes.iter().all(good) {
             return Ok(Box::new(self));
         }
-        Err(ParamError::new(parameter, "the outline does not go around the origin"))
+        Err(ParameterError::new(parameter, "the outline does not go around the origin"))
     }
 }
 
 /// The parameter `npoints`.
-pub(crate) fn points(params: &Params) -> Result<usize, ParamError> {
+pub(crate) fn points(params: &ParameterNode) -> Result<usize, ParameterError> {
     match params.integer("npoints") {
         n @ 1..=MOST => Ok(n as usize),
-        n => Err(ParamError::new("npoints", format!("{n} is not from 1 to {MOST}"))),
+        n => Err(ParameterError::new("npoints", format!("{n} is not from 1 to {MOST}"))),
     }
 }
 
@@ -162,10 +163,10 @@ impl Member for Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Value, optics::Table, spec};
+    use crate::{Mode, ParameterValue, optics::RealFunction, spec};
 
-    fn build(name: &str, values: &[(&str, Value)]) -> Result<Box<Shape>, ParamError> {
-        let node = Params::with_defaults(spec::find_class(name).unwrap(), Mode::Sound);
+    fn build(name: &str, values: &[(&str, ParameterValue)]) -> Result<Box<Shape>, ParameterError> {
+        let node = ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound);
         let node =
             values.iter().try_fold(node, |node, (name, value)| node.with(name, value.clone()))?;
         spec::build::<Shape>(&node)
@@ -175,10 +176,10 @@ mod tests {
     fn slopes_are_the_derivatives_of_the_outlines() {
         for spec in ALL {
             let values = match spec.class.name {
-                "Cylinder_Axisymmetric_Shape" => vec![("corner", Value::Number(0.01))],
+                "Cylinder_Axisymmetric_Shape" => vec![("corner", ParameterValue::Number(0.01))],
                 "Conical_Axisymmetric_Shape" => vec![
-                    ("corner_base", Value::Number(0.005)),
-                    ("corner_apex", Value::Number(0.01)),
+                    ("corner_base", ParameterValue::Number(0.005)),
+                    ("corner_apex", ParameterValue::Number(0.01)),
                 ],
                 _ => vec![],
             };
@@ -214,8 +215,8 @@ mod tests {
             ("Chebyshev_Axisymmetric_Shape", vec![], 4.0 / 3.0 * PI * 0.05f64.powi(3)),
         ] {
             let mut values: Vec<_> =
-                values.into_iter().map(|(name, x)| (name, Value::Number(x))).collect();
-            values.push(("renorm", Value::Integer(1)));
+                values.into_iter().map(|(name, x)| (name, ParameterValue::Number(x))).collect();
+            values.push(("renorm", ParameterValue::Integer(1)));
             let volume = build(name, &values).unwrap().volume();
             assert!((volume / plain - 1.0).abs() < 1e-4, "{name} {volume} {plain}");
         }
@@ -235,12 +236,12 @@ mod tests {
             ("Chebyshev_Axisymmetric_Shape", "amplitude", 2.0),
             ("Table_Axisymmetric_Shape", "scale", -1.0),
         ] {
-            let error = build(name, &[(parameter, Value::Number(value))]).unwrap_err();
+            let error = build(name, &[(parameter, ParameterValue::Number(value))]).unwrap_err();
             assert!(!error.problem.is_empty(), "{name}");
         }
-        let table = [("table", Value::Table(Table::constant(0.0)))];
+        let table = [("table", ParameterValue::Table(RealFunction::constant(0.0)))];
         assert_eq!(build("Table_Axisymmetric_Shape", &table).unwrap_err().parameter, "table");
-        let none = [("npoints", Value::Integer(0))];
+        let none = [("npoints", ParameterValue::Integer(0))];
         assert_eq!(build("Table_Axisymmetric_Shape", &none).unwrap_err().parameter, "npoints");
     }
 }

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use crate::{
     Defect,
-    lanes::{Batch, Real, Vectors, WIDTH},
-    spec::{Family, Member, Node, ParamError, Spec},
+    lanes::{LaneKernel, Real, SimdLevel, WIDTH},
+    spec::{Family, Member, ParameterError, ParameterNode, Spec},
 };
 
 pub mod anisotropic_exponential;
@@ -46,15 +46,15 @@ trait ClosedForm {
 }
 
 /// [`SlopeDistribution::densities`] of a closed form.
-struct Densities<'a, S> {
+struct DensityKernel<'a, S> {
     form: &'a S,
     zeta: &'a [[[f64; WIDTH]; 2]],
     out: &'a mut [[f64; WIDTH]],
 }
 
-impl<S: ClosedForm> Batch for Densities<'_, S> {
+impl<S: ClosedForm> LaneKernel for DensityKernel<'_, S> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         for ([x, y], out) in self.zeta.iter().zip(self.out) {
             *out = vectors.store(self.form.at(vectors.load(x), vectors.load(y)));
         }
@@ -85,12 +85,12 @@ impl Member for dyn SlopeDistribution {
 }
 
 /// The positive parameter `name`.
-fn width(node: &Node, name: &str) -> Result<f64, ParamError> {
+fn width(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let x = node.number(name);
     if x > 0.0 && x.is_finite() {
         return Ok(x);
     }
-    Err(ParamError::new(name, format!("{x} is not positive")))
+    Err(ParameterError::new(name, format!("{x} is not positive")))
 }
 
 /// The constants of an exponential density with unit rms.
@@ -104,7 +104,7 @@ struct ExponentialConstants {
 }
 
 impl ExponentialConstants {
-    fn of(node: &Node) -> Self {
+    fn of(node: &ParameterNode) -> Self {
         if node.reproduces(Defect::SlopeConstants) {
             return Self {
                 norm: 0.954929658551,
@@ -127,13 +127,14 @@ fn by_angle(x: f64, y: f64, density: impl Fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Value, spec};
+    use crate::{Mode, ParameterValue, spec};
 
     fn built(name: &str, params: &[(&str, f64)], mode: Mode) -> Box<dyn SlopeDistribution> {
         let class = spec::find_class(name).unwrap();
-        let node = params.iter().fold(Node::with_defaults(class, mode), |node, (name, x)| {
-            node.with(name, Value::Number(*x)).unwrap()
-        });
+        let node =
+            params.iter().fold(ParameterNode::with_defaults(class, mode), |node, (name, x)| {
+                node.with(name, ParameterValue::Number(*x)).unwrap()
+            });
         spec::build::<dyn SlopeDistribution>(&node).unwrap()
     }
 
@@ -214,7 +215,8 @@ mod tests {
     fn widths_that_are_not_positive_are_refused() {
         let class = spec::find_class("Gaussian_Slope_Distribution_Function").unwrap();
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let node = Node::with_defaults(class, Mode::Sound).with("s", Value::Number(bad));
+            let node = ParameterNode::with_defaults(class, Mode::Sound)
+                .with("s", ParameterValue::Number(bad));
             let error = spec::build::<dyn SlopeDistribution>(&node.unwrap()).err().unwrap();
             assert_eq!(error.parameter, "s");
         }

@@ -14,8 +14,8 @@ use std::{
 };
 
 use crate::{
-    Defect, Limit, Mode, Notice,
-    optics::{Index, Table},
+    Defect, Mode, ModelLimit, Notice,
+    optics::{RealFunction, RefractiveIndex},
     stack::Film,
 };
 
@@ -120,7 +120,7 @@ impl Family {
             Self::Grating => list::<dyn crate::grating::Grating>(),
             Self::CrossGrating => list::<dyn crate::cross_grating::CrossGrating>(),
             Self::Shape => list::<crate::shape::Shape>(),
-            Self::Layer => list::<crate::models::coating::layer::Layer>(),
+            Self::Layer => list::<crate::models::coating::layer::CoatingLayer>(),
         }
     }
 }
@@ -140,7 +140,7 @@ pub const ABSTRACT: &[(&str, &str)] = &[
 
 /// What a parameter holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ParameterKind {
     /// A real number.
     Number,
     /// An integer.
@@ -163,11 +163,11 @@ pub enum Kind {
 
 /// One parameter of a class.
 #[derive(Clone, Copy, Debug)]
-pub struct Param {
+pub struct Parameter {
     /// Name in a program.
     pub name: &'static str,
     /// What it holds.
-    pub kind: Kind,
+    pub kind: ParameterKind,
     /// Default, as a program would write it.
     pub default: &'static str,
     /// Unit; `1` for a pure number, empty where there is none.
@@ -176,7 +176,7 @@ pub struct Param {
     pub doc: &'static str,
 }
 
-impl Param {
+impl Parameter {
     /// A real number.
     pub const fn number(
         name: &'static str,
@@ -184,17 +184,17 @@ impl Param {
         unit: &'static str,
         doc: &'static str,
     ) -> Self {
-        Self { name, kind: Kind::Number, default, unit, doc }
+        Self { name, kind: ParameterKind::Number, default, unit, doc }
     }
 
     /// An integer.
     pub const fn integer(name: &'static str, default: &'static str, doc: &'static str) -> Self {
-        Self { name, kind: Kind::Integer, default, unit: "", doc }
+        Self { name, kind: ParameterKind::Integer, default, unit: "", doc }
     }
 
     /// An index of refraction.
     pub const fn index(name: &'static str, default: &'static str, doc: &'static str) -> Self {
-        Self { name, kind: Kind::Index, default, unit: "1", doc }
+        Self { name, kind: ParameterKind::Index, default, unit: "1", doc }
     }
 
     /// A function of one variable.
@@ -204,7 +204,7 @@ impl Param {
         unit: &'static str,
         doc: &'static str,
     ) -> Self {
-        Self { name, kind: Kind::Table, default, unit, doc }
+        Self { name, kind: ParameterKind::Table, default, unit, doc }
     }
 
     /// Any member of a family.
@@ -215,7 +215,7 @@ impl Param {
         default: &'static str,
         doc: &'static str,
     ) -> Self {
-        Self { name, kind: Kind::Member(family, base), default, unit: "", doc }
+        Self { name, kind: ParameterKind::Member(family, base), default, unit: "", doc }
     }
 }
 
@@ -256,19 +256,19 @@ pub struct Class {
     /// Key in `docs/references.bib`; several are separated by blanks.
     pub source: &'static str,
     /// Parameters: inherited groups first, as users see them.
-    pub params: &'static [&'static [Param]],
+    pub params: &'static [&'static [Parameter]],
     /// The laws it claims.
     pub laws: Laws,
 }
 
 impl Class {
     /// All parameters, inherited ones first.
-    pub fn parameters(&self) -> impl Iterator<Item = &'static Param> + use<> {
+    pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> + use<> {
         self.params.iter().flat_map(|group| group.iter())
     }
 
     /// Position and description of the parameter `name`.
-    pub fn parameter(&self, name: &str) -> Option<(usize, &'static Param)> {
+    pub fn parameter(&self, name: &str) -> Option<(usize, &'static Parameter)> {
         self.parameters().enumerate().find(|(_, param)| param.name == name)
     }
 }
@@ -279,7 +279,7 @@ pub struct Spec<T: ?Sized> {
     /// What the class says of itself.
     pub class: Class,
     /// Builds a prepared instance; nothing that depends on parameters alone is left for later.
-    pub build: fn(&Node) -> Result<Box<T>, ParamError>,
+    pub build: fn(&ParameterNode) -> Result<Box<T>, ParameterError>,
 }
 
 /// A type whose instances are built from the specs of one family.
@@ -291,11 +291,11 @@ pub trait Member: 'static {
 }
 
 /// A function of one variable given by a formula.
-pub type Formula = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
+pub type FormulaFn = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// The typed value of a parameter.
 #[derive(Clone)]
-pub enum Value {
+pub enum ParameterValue {
     /// A real number.
     Number(f64),
     /// An integer.
@@ -303,18 +303,18 @@ pub enum Value {
     /// Text, or the text of a file.
     Text(Arc<str>),
     /// A function of `x`.
-    Formula(Formula),
+    Formula(FormulaFn),
     /// An index of refraction.
-    Index(Index),
+    Index(RefractiveIndex),
     /// A function of one variable.
-    Table(Table),
+    Table(RealFunction),
     /// Films, the one next to the substrate first.
     Films(Vec<Film>),
     /// A nested instance.
-    Member(Arc<Node>),
+    Member(Arc<ParameterNode>),
 }
 
-impl fmt::Debug for Value {
+impl fmt::Debug for ParameterValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(x) => write!(f, "{x}"),
@@ -330,32 +330,32 @@ impl fmt::Debug for Value {
 }
 
 /// What a build has to tell; shared by a node and all below it.
-pub type Met = Arc<Mutex<BTreeSet<Notice>>>;
+pub type SharedNotices = Arc<Mutex<BTreeSet<Notice>>>;
 
 /// A class with a typed value for each of its parameters: all that is needed to build it.
 #[derive(Clone, Debug)]
-pub struct Node {
+pub struct ParameterNode {
     /// The class.
     pub class: &'static Class,
     /// One value per parameter, in the order of [`Class::parameters`].
-    pub values: Vec<Value>,
+    pub values: Vec<ParameterValue>,
     /// Sound or compat.
     pub mode: Mode,
     /// Where a build notes the defects it stepped around and the limits it passed.
-    pub met: Met,
+    pub met: SharedNotices,
 }
 
 /// A parameter with a value that the class cannot take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("parameter {parameter}: {problem}")]
-pub struct ParamError {
+pub struct ParameterError {
     /// Dotted name, from the model on which the build started.
     pub parameter: String,
     /// What is wrong and what would be accepted.
     pub problem: String,
 }
 
-impl ParamError {
+impl ParameterError {
     /// An error at the parameter `name` of the class that is being built.
     pub fn new(name: &str, problem: impl Into<String>) -> Self {
         Self { parameter: name.to_owned(), problem: problem.into() }
@@ -368,22 +368,22 @@ impl ParamError {
     }
 }
 
-impl Node {
+impl ParameterNode {
     /// The class with every parameter at its default.
     ///
     /// # Panics
     ///
     /// If a default in the registry is not a value of its kind; a test builds every class.
     pub fn with_defaults(class: &'static Class, mode: Mode) -> Self {
-        Self::with_defaults_noting(class, mode, Met::default())
+        Self::with_defaults_noting(class, mode, SharedNotices::default())
     }
 
     /// The same, noting the defects it steps around in `met`.
     ///
     /// # Panics
     ///
-    /// As [`Node::with_defaults`].
-    pub fn with_defaults_noting(class: &'static Class, mode: Mode, met: Met) -> Self {
+    /// As [`ParameterNode::with_defaults`].
+    pub fn with_defaults_noting(class: &'static Class, mode: Mode, met: SharedNotices) -> Self {
         let values = class.parameters().map(|p| default_value(p, mode, &met)).collect();
         Self { class, values, mode, met }
     }
@@ -393,9 +393,9 @@ impl Node {
     /// # Errors
     ///
     /// If the class has no such parameter.
-    pub fn with(mut self, name: &str, value: Value) -> Result<Self, ParamError> {
+    pub fn with(mut self, name: &str, value: ParameterValue) -> Result<Self, ParameterError> {
         let (at, _) = self.class.parameter(name).ok_or_else(|| {
-            ParamError::new(name, format!("not a parameter of {}", self.class.name))
+            ParameterError::new(name, format!("not a parameter of {}", self.class.name))
         })?;
         self.values[at] = value;
         Ok(self)
@@ -415,7 +415,7 @@ impl Node {
     }
 
     /// Notes that the parameters lie beyond `limit`.
-    pub fn passes(&self, limit: Limit) {
+    pub fn passes(&self, limit: ModelLimit) {
         self.note(limit.into());
     }
 
@@ -423,7 +423,7 @@ impl Node {
         self.met.lock().expect("no build panics while it notes one").insert(notice);
     }
 
-    fn value(&self, name: &str) -> &Value {
+    fn value(&self, name: &str) -> &ParameterValue {
         let (at, _) = self
             .class
             .parameter(name)
@@ -442,8 +442,8 @@ impl Node {
     /// This and the getters below: if the class does not declare the parameter with this kind.
     pub fn number(&self, name: &str) -> f64 {
         match self.value(name) {
-            Value::Number(x) if self.mode == Mode::Sound && x.abs() < range::LEAST => 0.0,
-            Value::Number(x) => *x,
+            ParameterValue::Number(x) if self.mode == Mode::Sound && x.abs() < range::LEAST => 0.0,
+            ParameterValue::Number(x) => *x,
             _ => self.wrong(name),
         }
     }
@@ -451,7 +451,7 @@ impl Node {
     /// The integer `name`.
     pub fn integer(&self, name: &str) -> i32 {
         match self.value(name) {
-            Value::Integer(i) => *i,
+            ParameterValue::Integer(i) => *i,
             _ => self.wrong(name),
         }
     }
@@ -459,32 +459,32 @@ impl Node {
     /// The text `name`, or the text of the file it names.
     pub fn text(&self, name: &str) -> &str {
         match self.value(name) {
-            Value::Text(text) => text,
+            ParameterValue::Text(text) => text,
             _ => self.wrong(name),
         }
     }
 
     /// The formula `name`.
-    pub fn formula(&self, name: &str) -> &Formula {
+    pub fn formula(&self, name: &str) -> &FormulaFn {
         match self.value(name) {
-            Value::Formula(f) => f,
+            ParameterValue::Formula(f) => f,
             _ => self.wrong(name),
         }
     }
 
     /// The index of refraction `name`.
     #[allow(clippy::should_implement_trait)] // The getters are called like their kinds.
-    pub fn index(&self, name: &str) -> &Index {
+    pub fn index(&self, name: &str) -> &RefractiveIndex {
         match self.value(name) {
-            Value::Index(index) => index,
+            ParameterValue::Index(index) => index,
             _ => self.wrong(name),
         }
     }
 
     /// The function of one variable `name`.
-    pub fn table(&self, name: &str) -> &Table {
+    pub fn table(&self, name: &str) -> &RealFunction {
         match self.value(name) {
-            Value::Table(table) => table,
+            ParameterValue::Table(table) => table,
             _ => self.wrong(name),
         }
     }
@@ -492,15 +492,15 @@ impl Node {
     /// The films `name`.
     pub fn films(&self, name: &str) -> &[Film] {
         match self.value(name) {
-            Value::Films(films) => films,
+            ParameterValue::Films(films) => films,
             _ => self.wrong(name),
         }
     }
 
     /// The node of the nested instance `name`, not yet built.
-    pub fn child(&self, name: &str) -> &Node {
+    pub fn child(&self, name: &str) -> &ParameterNode {
         match self.value(name) {
-            Value::Member(node) => node,
+            ParameterValue::Member(node) => node,
             _ => self.wrong(name),
         }
     }
@@ -510,7 +510,7 @@ impl Node {
     /// # Errors
     ///
     /// What the instance's own parameters get wrong, with `name` before their names.
-    pub fn member<T: ?Sized + Member>(&self, name: &str) -> Result<Box<T>, ParamError> {
+    pub fn member<T: ?Sized + Member>(&self, name: &str) -> Result<Box<T>, ParameterError> {
         build::<T>(self.child(name)).map_err(|error| error.inside(name))
     }
 }
@@ -524,7 +524,7 @@ impl Node {
 /// # Panics
 ///
 /// If the node's class is not of the family `T`.
-pub fn build<T: ?Sized + Member>(node: &Node) -> Result<Box<T>, ParamError> {
+pub fn build<T: ?Sized + Member>(node: &ParameterNode) -> Result<Box<T>, ParameterError> {
     let spec = T::specs()
         .find(|spec| spec.class.name == node.class.name)
         .unwrap_or_else(|| panic!("{} is not a {}", node.class.name, T::FAMILY.base()));
@@ -549,31 +549,37 @@ pub fn is_below(name: &str, base: &str) -> bool {
 
 /// The default of `param` as a typed value; defaults in the registry are numbers, constants and
 /// class names, never files.
-fn default_value(param: &Param, mode: Mode, met: &Met) -> Value {
+fn default_value(param: &Parameter, mode: Mode, met: &SharedNotices) -> ParameterValue {
     let number = |text: &str| -> f64 {
         text.parse().unwrap_or_else(|_| panic!("default {text:?} of {}", param.name))
     };
     match param.kind {
-        Kind::Number => Value::Number(number(param.default)),
-        Kind::Integer => Value::Integer(
+        ParameterKind::Number => ParameterValue::Number(number(param.default)),
+        ParameterKind::Integer => ParameterValue::Integer(
             param.default.parse().unwrap_or_else(|_| panic!("default of {}", param.name)),
         ),
-        Kind::Text | Kind::File => Value::Text(param.default.into()),
-        Kind::Formula => {
+        ParameterKind::Text | ParameterKind::File => ParameterValue::Text(param.default.into()),
+        ParameterKind::Formula => {
             let value = number(param.default);
-            Value::Formula(Arc::new(move |_| value))
+            ParameterValue::Formula(Arc::new(move |_| value))
         }
-        Kind::Index => {
+        ParameterKind::Index => {
             let inner = param.default.trim_start_matches('(').trim_end_matches(')');
             let (n, k) = inner.split_once(',').unwrap_or((inner, "0"));
-            Value::Index(Index::constant(number(n), number(k)))
+            ParameterValue::Index(RefractiveIndex::constant(number(n), number(k)))
         }
-        Kind::Table => Value::Table(Table::constant(number(param.default))),
-        Kind::Films => Value::Films(Vec::new()),
-        Kind::Member(..) => {
+        ParameterKind::Table => {
+            ParameterValue::Table(RealFunction::constant(number(param.default)))
+        }
+        ParameterKind::Films => ParameterValue::Films(Vec::new()),
+        ParameterKind::Member(..) => {
             let class = find_class(param.default)
                 .unwrap_or_else(|| panic!("no class {:?} for {}", param.default, param.name));
-            Value::Member(Arc::new(Node::with_defaults_noting(class, mode, met.clone())))
+            ParameterValue::Member(Arc::new(ParameterNode::with_defaults_noting(
+                class,
+                mode,
+                met.clone(),
+            )))
         }
     }
 }

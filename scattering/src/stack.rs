@@ -3,8 +3,8 @@
 use num_complex::Complex64;
 
 use crate::{
-    optics::Index,
-    spec::{Family, Member, ParamError, Spec},
+    optics::RefractiveIndex,
+    spec::{Family, Member, ParameterError, Spec},
 };
 
 pub mod double;
@@ -17,7 +17,7 @@ pub mod single;
 #[derive(Clone, Debug)]
 pub struct Film {
     /// Its index of refraction.
-    pub index: Index,
+    pub index: RefractiveIndex,
     /// Its thickness, µm.
     pub thickness: f64,
 }
@@ -48,9 +48,9 @@ impl Member for Stack {
     }
 }
 
-fn check_thickness(parameter: &str, thickness: f64) -> Result<f64, ParamError> {
+fn check_thickness(parameter: &str, thickness: f64) -> Result<f64, ParameterError> {
     if thickness >= 0.0 && thickness.is_finite() {
         return Ok(thickness);
     }
-    Err(ParamError::new(parameter, format!("{thickness} um is not a thickness")))
+    Err(ParameterError::new(parameter, format!("{thickness} um is not a thickness")))
 }

@@ -15,9 +15,9 @@ use num_complex::Complex64;
 
 use self::waves::Multipole;
 use crate::{
-    Node, ParamError,
+    ParameterError, ParameterNode,
     shape::Shape,
-    spec::{Family, Param},
+    spec::{Family, Parameter},
     special::harmonics::Harmonics,
 };
 
@@ -25,7 +25,7 @@ pub mod ebcm;
 pub mod waves;
 
 /// A complex matrix.
-pub type Matrix = Mat<Complex64>;
+pub type ComplexMatrix = Mat<Complex64>;
 
 /// The largest l that is computed; a sphere of 80 wavelengths around needs as many.
 pub const MOST: usize = 100;
@@ -36,7 +36,7 @@ pub struct TMatrix {
     /// The largest l.
     pub l_max: usize,
     /// T_m.
-    pub blocks: Vec<Matrix>,
+    pub blocks: Vec<ComplexMatrix>,
 }
 
 impl TMatrix {
@@ -45,7 +45,7 @@ impl TMatrix {
         let l_max = coefficients.len();
         let block = |m: usize| {
             let size = l_max + 1 - Harmonics::l_min(m);
-            Matrix::from_fn(2 * size, 2 * size, |row, column| {
+            ComplexMatrix::from_fn(2 * size, 2 * size, |row, column| {
                 let (a, b) = coefficients[l_max - size + row % size];
                 match (row == column, row < size) {
                     (false, _) => Complex64::ZERO,
@@ -64,12 +64,12 @@ impl TMatrix {
 }
 
 /// The largest l that the parameter `lmax` asks for where the size needs `needed`.
-pub(crate) fn l_max(node: &Node, needed: usize) -> Result<usize, ParamError> {
+pub(crate) fn l_max(node: &ParameterNode, needed: usize) -> Result<usize, ParameterError> {
     let asked = i64::from(node.integer("lmax"));
     let l = if asked > 0 { asked } else { needed as i64 - asked };
     match usize::try_from(l) {
         Ok(l) if l <= MOST => Ok(l),
-        _ => Err(ParamError::new(
+        _ => Err(ParameterError::new(
             "lmax",
             format!("{asked} asks for l up to {l}, more than {MOST}; the size needs {needed}"),
         )),
@@ -88,44 +88,45 @@ fn terms(x: f64) -> usize {
 ///
 /// For numbers of multipoles that cannot be had.
 pub(crate) fn read(
-    node: &Node,
+    node: &ParameterNode,
     shape: &Shape,
     index: Complex64,
     k: f64,
-) -> Result<TMatrix, ParamError> {
+) -> Result<TMatrix, ParameterError> {
     let l_max = l_max(node, terms(k * shape.reach()))?;
     let m_max = match node.integer("mmax") {
         0 => l_max,
         asked => usize::try_from(asked)
-            .map_err(|_| ParamError::new("mmax", format!("{asked} is negative")))?
+            .map_err(|_| ParameterError::new("mmax", format!("{asked} is negative")))?
             .min(l_max),
     };
-    TMatrix::of_revolution(shape, index, k, l_max, m_max)
-        .ok_or_else(|| ParamError::new("lmax", "too many multipoles for this body: they overflow"))
+    TMatrix::of_revolution(shape, index, k, l_max, m_max).ok_or_else(|| {
+        ParameterError::new("lmax", "too many multipoles for this body: they overflow")
+    })
 }
 
 /// The parameters of a body of revolution.
-pub(crate) const BODY: [Param; 2] = [
-    Param::member(
+pub(crate) const BODY: [Parameter; 2] = [
+    Parameter::member(
         "Shape",
         Family::Shape,
         "Axisymmetric_Shape",
         "Ellipsoid_Axisymmetric_Shape",
         "Outline of the particle",
     ),
-    Param::index("particle", "(1.59,0)", "Index of the particle"),
+    Parameter::index("particle", "(1.59,0)", "Index of the particle"),
 ];
 
 /// The parameters of how many multipoles it gets.
-pub(crate) const MULTIPOLES: [Param; 2] = [
-    Param::integer("lmax", "0", "Largest l: 0 as the size needs, -n that and n more, n just n"),
-    Param::integer("mmax", "0", "Largest m: 0 as lmax, n at most n"),
+pub(crate) const MULTIPOLES: [Parameter; 2] = [
+    Parameter::integer("lmax", "0", "Largest l: 0 as the size needs, -n that and n more, n just n"),
+    Parameter::integer("mmax", "0", "Largest m: 0 as lmax, n at most n"),
 ];
 
 /// Calls `each` with l − max(1, m) and the outgoing multipole w = B v for the first `rows` values
 /// of l, v the regular waves of one order.
 pub(crate) fn apply(
-    block: &Matrix,
+    block: &ComplexMatrix,
     regular: &[Multipole],
     rows: usize,
     mut each: impl FnMut(usize, Multipole),
@@ -145,11 +146,11 @@ pub(crate) fn apply(
 }
 
 /// a⁻¹ b.
-pub(crate) fn solve(a: &Matrix, b: &Matrix) -> Matrix {
+pub(crate) fn solve(a: &ComplexMatrix, b: &ComplexMatrix) -> ComplexMatrix {
     a.partial_piv_lu().solve(b)
 }
 
 /// Whether every element is a finite number.
-pub(crate) fn is_finite(matrix: &Matrix) -> bool {
+pub(crate) fn is_finite(matrix: &ComplexMatrix) -> bool {
     (0..matrix.ncols()).all(|column| matrix.col(column).iter().all(|z| z.is_finite()))
 }

@@ -150,7 +150,7 @@ impl Model {
     ///
     /// As [`Model::mueller_between`]; pairs of one source that follow each other share its work.
     pub fn evaluate_local(&self, pairs: &[(DVec3, DVec3)], basis: Basis) -> Vec<Mueller> {
-        let seen = Pairs::new(self.common().side, pairs);
+        let seen = DirectionPairs::new(self.common().side, pairs);
         let mut matrices = vec![Mueller::ZERO; seen.places.len()];
         self.evaluate_pairs(&seen, basis, &mut matrices);
         let mut out = vec![Mueller::ZERO; pairs.len()];
@@ -161,8 +161,8 @@ impl Model {
     }
 
     /// Mueller BRDFs (1/sr) of the pairs that have light, in their order: `out` has one matrix for
-    /// each of [`Pairs::places`]. The model has the side for which the pairs were made.
-    pub fn evaluate_pairs(&self, pairs: &Pairs, basis: Basis, mut out: &mut [Mueller]) {
+    /// each of [`DirectionPairs::places`]. The model has the side for which the pairs were made.
+    pub fn evaluate_pairs(&self, pairs: &DirectionPairs, basis: Basis, mut out: &mut [Mueller]) {
         let mut directions = &pairs.directions[..];
         for (incidence, count) in &pairs.sources {
             let (own, others) = directions.split_at(*count);
@@ -176,14 +176,14 @@ impl Model {
 /// Pairs of vectors in a local frame as models on one side see them: for many models, such as
 /// those of many wavelengths, the angles are computed once.
 #[derive(Clone, Debug, Default)]
-pub struct Pairs {
+pub struct DirectionPairs {
     /// Each source, and how many directions follow it.
     sources: Vec<(Incidence, usize)>,
     directions: Vec<Direction>,
     places: Vec<usize>,
 }
 
-impl Pairs {
+impl DirectionPairs {
     /// The `pairs` (to the source, to the viewer) whose light passes on `side`.
     pub fn new(side: Side, pairs: &[(DVec3, DVec3)]) -> Self {
         let mut seen = Self {

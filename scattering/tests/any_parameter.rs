@@ -6,8 +6,8 @@ use std::{
 };
 
 use scattering::{
-    Basis, Class, Family, Geometry, Kind, Mode, Node, Value, models,
-    optics::{Axis, Index, Rise, Table},
+    Basis, Class, Family, Geometry, Mode, ParameterKind, ParameterNode, ParameterValue, models,
+    optics::{AbscissaScale, RealFunction, RefractiveIndex, TableInterpolation},
     spec::is_below,
     stack::Film,
 };
@@ -57,8 +57,8 @@ impl Dice {
         self.one_of(&[i32::MIN, -1000, -1, 0, 1, 2, 3, 7, 12, 1_000_000, i32::MAX])
     }
 
-    fn index(&mut self) -> Index {
-        Index::constant(self.number(), self.number())
+    fn index(&mut self) -> RefractiveIndex {
+        RefractiveIndex::constant(self.number(), self.number())
     }
 
     fn text(&mut self) -> &'static str {
@@ -75,46 +75,51 @@ impl Dice {
     }
 
     /// A value of the kind, or nothing to keep the default.
-    fn value(&mut self, kind: Kind, depth: usize) -> Option<Value> {
+    fn value(&mut self, kind: ParameterKind, depth: usize) -> Option<ParameterValue> {
         Some(match kind {
-            Kind::Number => Value::Number(self.number()),
-            Kind::Integer => Value::Integer(self.integer()),
-            Kind::Text | Kind::File => Value::Text(self.text().into()),
-            Kind::Formula => {
+            ParameterKind::Number => ParameterValue::Number(self.number()),
+            ParameterKind::Integer => ParameterValue::Integer(self.integer()),
+            ParameterKind::Text | ParameterKind::File => ParameterValue::Text(self.text().into()),
+            ParameterKind::Formula => {
                 let value = self.number();
-                Value::Formula(Arc::new(move |x| value * x))
+                ParameterValue::Formula(Arc::new(move |x| value * x))
             }
-            Kind::Index => Value::Index(self.index()),
-            Kind::Table => Value::Table(self.table()),
-            Kind::Films => Value::Films(
+            ParameterKind::Index => ParameterValue::Index(self.index()),
+            ParameterKind::Table => ParameterValue::Table(self.table()),
+            ParameterKind::Films => ParameterValue::Films(
                 (0..self.next() % 3)
                     .map(|_| Film { index: self.index(), thickness: self.number() })
                     .collect(),
             ),
-            Kind::Member(family, base) => {
+            ParameterKind::Member(family, base) => {
                 let classes = family.classes();
                 let class = self.one_of(&classes);
                 if depth > 2 || !is_below(class.name, base) {
                     return None;
                 }
-                Value::Member(self.node(class, depth + 1).into())
+                ParameterValue::Member(self.node(class, depth + 1).into())
             }
         })
     }
 
-    fn table(&mut self) -> Table {
+    fn table(&mut self) -> RealFunction {
         if self.next().is_multiple_of(2) {
-            return Table::constant(self.number());
+            return RealFunction::constant(self.number());
         }
         let rows: Vec<(f64, f64)> = (0..3).map(|_| (self.number(), self.number())).collect();
-        let axis = self.one_of(&[Axis::Linear, Axis::Log]);
-        let rise = self.one_of(&[Rise::Linear, Rise::Log, Rise::Spline, Rise::LogSpline]);
-        Table::points(&rows, axis, rise)
+        let axis = self.one_of(&[AbscissaScale::Linear, AbscissaScale::Log]);
+        let rise = self.one_of(&[
+            TableInterpolation::Linear,
+            TableInterpolation::Log,
+            TableInterpolation::Spline,
+            TableInterpolation::LogSpline,
+        ]);
+        RealFunction::points(&rows, axis, rise)
     }
 
     /// The class with some of its parameters changed.
-    fn node(&mut self, class: &'static Class, depth: usize) -> Node {
-        let mut node = Node::with_defaults(class, Mode::Sound);
+    fn node(&mut self, class: &'static Class, depth: usize) -> ParameterNode {
+        let mut node = ParameterNode::with_defaults(class, Mode::Sound);
         let changed = 1 + self.next() % 3;
         for _ in 0..changed {
             let params: Vec<_> = class.parameters().collect();
@@ -137,7 +142,7 @@ const GEOMETRIES: [Geometry; 3] = [
 ];
 
 /// What is wrong with the model that `node` describes.
-fn judge(node: &Node) -> Option<String> {
+fn judge(node: &ParameterNode) -> Option<String> {
     let outcome = catch_unwind(AssertUnwindSafe(|| match models::build(node) {
         Err(error) if error.parameter.is_empty() => Some("names no parameter".to_owned()),
         Err(_) => None,
@@ -158,9 +163,9 @@ fn draws(class: &str) -> usize {
     }
 }
 
-fn values(node: &Node) -> String {
-    let of = |(param, value): (&scattering::Param, &Value)| match value {
-        Value::Member(inner) => {
+fn values(node: &ParameterNode) -> String {
+    let of = |(param, value): (&scattering::Parameter, &ParameterValue)| match value {
+        ParameterValue::Member(inner) => {
             format!("{} = {} [{}]", param.name, inner.class.name, values(inner))
         }
         other => format!("{} = {other:?}", param.name),

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 use reference::{TOLERANCE, assert_close, component_node, components, number};
 use scattering::{
     Direction, Incidence, Mode,
-    optics::film::{Films, Pair},
+    optics::film::{Films, SpAmplitudes},
     shadow::Shadow,
     slope::SlopeDistribution,
     spec,
@@ -43,7 +43,7 @@ fn coefficient(check: &Json) -> Complex64 {
         Some(angle) => films.kappa_inside(number(angle).sin()),
         None => number(&check["vacuum_angle"]).sin().into(),
     };
-    let pair: Pair = match (&name[..1], &name[2..4]) {
+    let pair: SpAmplitudes = match (&name[..1], &name[2..4]) {
         ("r", "12") => films.r12(kappa),
         ("r", "21") => films.r21(kappa),
         ("t", "12") => films.t12(kappa),

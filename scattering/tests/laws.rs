@@ -4,8 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use num_complex::Complex64;
 use scattering::{
-    Basis, Brdf, Geometry, Kind, Mode, Model, Mueller, Node, Spec, Value, models,
-    optics::Index,
+    Basis, Brdf, Geometry, Mode, Model, Mueller, ParameterKind, ParameterNode, ParameterValue,
+    Spec, models,
+    optics::RefractiveIndex,
     spec::{Laws, find_class},
 };
 
@@ -35,16 +36,16 @@ fn geometries() -> Vec<Geometry> {
 
 /// The model with its defaults, and what its parameters allow of: every type over a transparent
 /// substrate, elliptic slopes, a film.
-fn variants(defaults: &Node) -> Vec<(String, Model)> {
+fn variants(defaults: &ParameterNode) -> Vec<(String, Model)> {
     let name = defaults.class.name;
     // Some refuse the absorbing default substrate.
     let mut found: Vec<_> =
         models::build(defaults).into_iter().map(|model| (name.to_owned(), model)).collect();
     for n in [1.5, 1.0] {
-        let substrate = Value::Index(Index::constant(n, 0.0));
+        let substrate = ParameterValue::Index(RefractiveIndex::constant(n, 0.0));
         for side in 0..4 {
             let node = defaults.clone().with("substrate", substrate.clone());
-            let node = node.and_then(|node| node.with("type", Value::Integer(side)));
+            let node = node.and_then(|node| node.with("type", ParameterValue::Integer(side)));
             // Models that lack a type refuse it, particles in a substrate one that is not theirs.
             if let Ok(model) = node.and_then(|node| models::build(&node)) {
                 found.push((format!("{name}, substrate {n}, type {side}"), model));
@@ -62,12 +63,12 @@ fn variants(defaults: &Node) -> Vec<(String, Model)> {
         let has = defaults
             .class
             .parameter(parameter)
-            .is_some_and(|(_, p)| matches!(p.kind, Kind::Member(..)));
+            .is_some_and(|(_, p)| matches!(p.kind, ParameterKind::Member(..)));
         if !has {
             continue;
         }
-        let member = Node::with_defaults(find_class(class).unwrap(), Mode::Sound);
-        let node = defaults.clone().with(parameter, Value::Member(member.into())).unwrap();
+        let member = ParameterNode::with_defaults(find_class(class).unwrap(), Mode::Sound);
+        let node = defaults.clone().with(parameter, ParameterValue::Member(member.into())).unwrap();
         found.extend(models::build(&node).into_iter().map(|m| (format!("{name}, {class}"), m)));
     }
     found
@@ -79,10 +80,12 @@ fn claimed(law: fn(&Laws) -> bool) -> Vec<(String, Model)> {
 }
 
 /// The class with its defaults; a class that reads a file gets one.
-fn node(spec: &'static Spec<dyn Brdf>) -> Node {
-    let node = Node::with_defaults(&spec.class, Mode::Sound);
+fn node(spec: &'static Spec<dyn Brdf>) -> ParameterNode {
+    let node = ParameterNode::with_defaults(&spec.class, Mode::Sound);
     match spec.class.parameter("coefficientfile") {
-        Some(_) => node.with("coefficientfile", Value::Text("1 1 0 0 0 0 0 1.0".into())).unwrap(),
+        Some(_) => {
+            node.with("coefficientfile", ParameterValue::Text("1 1 0 0 0 0 0 1.0".into())).unwrap()
+        }
         None => node,
     }
 }
@@ -122,9 +125,11 @@ fn the_reversed_path_has_the_transposed_matrix() {
 }
 
 /// The class with its defaults on a transparent substrate, for light of NIST's `type` number `side`.
-fn through(defaults: &Node, n: f64, side: i32) -> Option<Model> {
-    let node = defaults.clone().with("substrate", Value::Index(Index::constant(n, 0.0)));
-    let node = node.and_then(|node| node.with("type", Value::Integer(side)));
+fn through(defaults: &ParameterNode, n: f64, side: i32) -> Option<Model> {
+    let node = defaults
+        .clone()
+        .with("substrate", ParameterValue::Index(RefractiveIndex::constant(n, 0.0)));
+    let node = node.and_then(|node| node.with("type", ParameterValue::Integer(side)));
     node.and_then(|node| models::build(&node)).ok()
 }
 
@@ -215,7 +220,7 @@ fn along_the_normal_every_basis_is_the_limit_of_its_azimuth_but_not_under_compat
         }
     }
     let class = &models::find("Microroughness_BRDF_Model").unwrap().class;
-    let compat = models::build(&Node::with_defaults(class, Mode::Compat)).unwrap();
+    let compat = models::build(&ParameterNode::with_defaults(class, Mode::Compat)).unwrap();
     assert!(step(&compat, Basis::Psps) < 1e-5 && step(&compat, Basis::Xyxy) > 0.1);
 }
 

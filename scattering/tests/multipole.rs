@@ -3,7 +3,9 @@
 
 use std::sync::Arc;
 
-use scattering::{Basis, Geometry, Mode, Node, Value, models, optics::Index, spec};
+use scattering::{
+    Basis, Geometry, Mode, ParameterNode, ParameterValue, models, optics::RefractiveIndex, spec,
+};
 
 const PROGRAMS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/conformance/programs");
 
@@ -11,16 +13,16 @@ const PROGRAMS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/conformanc
 /// signs lose three of them, the library's own as well as ours.
 const TOLERANCE: f64 = 1e-11;
 
-type Stokes = [f64; 4];
+type StokesVector = [f64; 4];
 
-const U: Stokes = [1.0, 0.0, 0.0, 0.0];
-const S: Stokes = [1.0, 1.0, 0.0, 0.0];
-const P: Stokes = [1.0, -1.0, 0.0, 0.0];
-const D: Stokes = [1.0, 0.0, 1.0, 0.0];
-const L: Stokes = [1.0, 0.0, 0.0, 1.0];
-const R: Stokes = [1.0, 0.0, 0.0, -1.0];
-const E: Stokes = [1.0, 0.48, -0.6, 0.64];
-const W: Stokes = [0.5, 0.1, -0.35, 0.2];
+const U: StokesVector = [1.0, 0.0, 0.0, 0.0];
+const S: StokesVector = [1.0, 1.0, 0.0, 0.0];
+const P: StokesVector = [1.0, -1.0, 0.0, 0.0];
+const D: StokesVector = [1.0, 0.0, 1.0, 0.0];
+const L: StokesVector = [1.0, 0.0, 0.0, 1.0];
+const R: StokesVector = [1.0, 0.0, 0.0, -1.0];
+const E: StokesVector = [1.0, 0.48, -0.6, 0.64];
+const W: StokesVector = [0.5, 0.1, -0.35, 0.2];
 
 /// The numbers of the table of a program, row by row.
 fn table(program: &str) -> Vec<Vec<f64>> {
@@ -32,32 +34,32 @@ fn table(program: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-fn index(n: f64, k: f64) -> Value {
-    Value::Index(Index::constant(n, k))
+fn index(n: f64, k: f64) -> ParameterValue {
+    ParameterValue::Index(RefractiveIndex::constant(n, k))
 }
 
-fn node(class: &str, mode: Mode, values: &[(&str, Value)]) -> Node {
+fn node(class: &str, mode: Mode, values: &[(&str, ParameterValue)]) -> ParameterNode {
     let class = spec::find_class(class).unwrap();
-    values.iter().fold(Node::with_defaults(class, mode), |node, (name, value)| {
+    values.iter().fold(ParameterNode::with_defaults(class, mode), |node, (name, value)| {
         node.with(name, value.clone()).unwrap()
     })
 }
 
-fn film(n: f64, k: f64, thickness: f64) -> Value {
-    let values = [("material", index(n, k)), ("thickness", Value::Number(thickness))];
-    Value::Member(Arc::new(node("SingleFilm_StackModel", Mode::Compat, &values)))
+fn film(n: f64, k: f64, thickness: f64) -> ParameterValue {
+    let values = [("material", index(n, k)), ("thickness", ParameterValue::Number(thickness))];
+    ParameterValue::Member(Arc::new(node("SingleFilm_StackModel", Mode::Compat, &values)))
 }
 
 /// Detected part per steradian for the polarization of the beam and the detector.
-fn detected(m: &scattering::Mueller, input: Stokes, output: Stokes) -> f64 {
+fn detected(m: &scattering::Mueller, input: StokesVector, output: StokesVector) -> f64 {
     (0..4).map(|i| (0..4).map(|j| output[i] * m[(i, j)] * input[j]).sum::<f64>()).sum()
 }
 
 /// Largest difference over largest element of the columns of a table that hold Stokes products.
 fn difference(
-    node: &Node,
+    node: &ParameterNode,
     program: &str,
-    columns: &[(Stokes, Stokes)],
+    columns: &[(StokesVector, StokesVector)],
     at: impl Fn(&[f64]) -> Geometry,
 ) -> f64 {
     let model = models::build(node).unwrap_or_else(|e| panic!("{program}: {e}"));
@@ -69,7 +71,7 @@ fn difference(
         let expected = &row[row.len() - columns.len()..];
         let scale = m[(0, 0)];
         for ((input, output), expected) in columns.iter().zip(expected) {
-            let scaled: Stokes =
+            let scaled: StokesVector =
                 output.map(|x| if *output == U || *output == W { x } else { 0.5 * x });
             let got = detected(&m, *input, scaled);
             worst = worst.max((got - expected).abs() / scale);
@@ -90,9 +92,9 @@ fn assert_small(difference: f64, program: &str) {
 #[test]
 fn a_sphere_on_a_bare_substrate_is_the_librarys() {
     let values = [
-        ("lambda", Value::Number(0.615)),
+        ("lambda", ParameterValue::Number(0.615)),
         ("substrate", index(4.034, 0.218)),
-        ("radius", Value::Number(0.052)),
+        ("radius", ParameterValue::Number(0.052)),
         ("sphere", index(1.542, 0.0)),
     ];
     let node = node("Bobbert_Vlieger_BRDF_Model", Mode::Compat, &values);
@@ -104,9 +106,9 @@ fn a_sphere_on_a_bare_substrate_is_the_librarys() {
 #[test]
 fn a_sphere_on_a_film_is_the_librarys_in_all_elements() {
     let values = [
-        ("lambda", Value::Number(0.486)),
+        ("lambda", ParameterValue::Number(0.486)),
         ("substrate", index(4.283, 0.306)),
-        ("radius", Value::Number(0.076)),
+        ("radius", ParameterValue::Number(0.076)),
         ("sphere", index(1.755, 0.0)),
         ("stack", film(1.419, 0.02, 0.145)),
     ];
@@ -123,9 +125,9 @@ fn a_sphere_on_a_film_is_the_librarys_in_all_elements() {
 #[test]
 fn a_coated_sphere_on_a_metal_is_the_librarys() {
     let values = [
-        ("lambda", Value::Number(0.572)),
+        ("lambda", ParameterValue::Number(0.572)),
         ("substrate", index(0.384, 5.607)),
-        ("radius", Value::Number(0.112)),
+        ("radius", ParameterValue::Number(0.112)),
         ("sphere", index(1.955, 0.0)),
         ("spherecoat", film(1.8, 0.1, 0.005)),
     ];
@@ -138,10 +140,10 @@ fn a_coated_sphere_on_a_metal_is_the_librarys() {
 #[test]
 fn light_of_a_sphere_into_the_substrate_is_the_librarys() {
     let values = [
-        ("lambda", Value::Number(0.6)),
+        ("lambda", ParameterValue::Number(0.6)),
         ("substrate", index(1.5, 0.0)),
-        ("type", Value::Integer(1)),
-        ("radius", Value::Number(0.103)),
+        ("type", ParameterValue::Integer(1)),
+        ("radius", ParameterValue::Number(0.103)),
         ("sphere", index(1.6, 0.0)),
     ];
     let node = node("Bobbert_Vlieger_BRDF_Model", Mode::Compat, &values);
@@ -153,11 +155,11 @@ fn light_of_a_sphere_into_the_substrate_is_the_librarys() {
 #[test]
 fn a_hole_in_the_substrate_is_the_librarys() {
     let values = [
-        ("lambda", Value::Number(0.6)),
+        ("lambda", ParameterValue::Number(0.6)),
         ("substrate", index(1.5, 0.0)),
-        ("radius", Value::Number(0.055)),
+        ("radius", ParameterValue::Number(0.055)),
         ("sphere", index(1.0, 0.0)),
-        ("delta", Value::Number(0.026)),
+        ("delta", ParameterValue::Number(0.026)),
     ];
     let node = node("Subsurface_Bobbert_Vlieger_BRDF_Model", Mode::Compat, &values);
     let columns = [(U, P), (L, S), (P, S), (U, U)];
@@ -165,23 +167,23 @@ fn a_hole_in_the_substrate_is_the_librarys() {
     assert_small(difference(&node, "v_subbv", &columns, at), "v_subbv");
 }
 
-fn shape(class: &str, values: &[(&str, Value)]) -> Value {
-    Value::Member(Arc::new(node(class, Mode::Compat, values)))
+fn shape(class: &str, values: &[(&str, ParameterValue)]) -> ParameterValue {
+    ParameterValue::Member(Arc::new(node(class, Mode::Compat, values)))
 }
 
-fn numbers<'a>(values: &[(&'a str, f64)]) -> Vec<(&'a str, Value)> {
-    values.iter().map(|&(name, x)| (name, Value::Number(x))).collect()
+fn numbers<'a>(values: &[(&'a str, f64)]) -> Vec<(&'a str, ParameterValue)> {
+    values.iter().map(|&(name, x)| (name, ParameterValue::Number(x))).collect()
 }
 
-fn ellipsoid_on_silicon(mode: Mode, mmax: i32) -> Node {
+fn ellipsoid_on_silicon(mode: Mode, mmax: i32) -> ParameterNode {
     let outline = numbers(&[("vertical", 0.065), ("horizontal", 0.051)]);
     let values = [
-        ("lambda", Value::Number(0.55)),
+        ("lambda", ParameterValue::Number(0.55)),
         ("substrate", index(3.884, 0.285)),
         ("particle", index(1.6, 0.0)),
         ("Shape", shape("Ellipsoid_Axisymmetric_Shape", &outline)),
-        ("lmax", Value::Integer(6)),
-        ("mmax", Value::Integer(mmax)),
+        ("lmax", ParameterValue::Integer(6)),
+        ("mmax", ParameterValue::Integer(mmax)),
     ];
     node("Axisymmetric_Particle_BRDF_Model", mode, &values)
 }
@@ -198,12 +200,12 @@ fn an_ellipsoid_on_a_substrate_is_the_librarys() {
 fn a_rounded_cylinder_on_a_substrate_is_the_librarys() {
     let outline = numbers(&[("radius", 0.04), ("length", 0.081), ("corner", 0.01)]);
     let values = [
-        ("lambda", Value::Number(0.6)),
+        ("lambda", ParameterValue::Number(0.6)),
         ("substrate", index(4.113, 0.266)),
         ("particle", index(1.815, 0.053)),
         ("Shape", shape("Cylinder_Axisymmetric_Shape", &outline)),
-        ("lmax", Value::Integer(6)),
-        ("mmax", Value::Integer(4)),
+        ("lmax", ParameterValue::Integer(6)),
+        ("mmax", ParameterValue::Integer(4)),
     ];
     let node = node("Axisymmetric_Particle_BRDF_Model", Mode::Compat, &values);
     let columns = [(L, L), (S, P), (P, P), (P, S), (P, L)];
@@ -216,14 +218,14 @@ fn a_rounded_cylinder_on_a_substrate_is_the_librarys() {
 #[test]
 fn a_chebyshev_particle_on_a_substrate_is_the_librarys() {
     let mut outline = numbers(&[("amplitude", 0.05)]);
-    outline.extend([("n", Value::Integer(4)), ("npoints", Value::Integer(60))]);
+    outline.extend([("n", ParameterValue::Integer(4)), ("npoints", ParameterValue::Integer(60))]);
     let values = [
-        ("lambda", Value::Number(0.6)),
+        ("lambda", ParameterValue::Number(0.6)),
         ("substrate", index(4.053, 0.277)),
         ("particle", index(1.5, 0.0)),
         ("Shape", shape("Chebyshev_Axisymmetric_Shape", &outline)),
-        ("lmax", Value::Integer(5)),
-        ("mmax", Value::Integer(3)),
+        ("lmax", ParameterValue::Integer(5)),
+        ("mmax", ParameterValue::Integer(3)),
     ];
     let node = node("Axisymmetric_Particle_BRDF_Model", Mode::Compat, &values);
     let columns = [(L, S), (S, S), (P, P), (S, P)];
@@ -264,9 +266,9 @@ fn a_round_body_is_the_sphere_of_bobbert_and_vlieger() {
         for side in 0..4 {
             let values = [
                 ("substrate", index(1.5, 0.0)),
-                ("type", Value::Integer(side)),
-                ("lmax", Value::Integer(6)),
-                ("delta", Value::Number(0.01)),
+                ("type", ParameterValue::Integer(side)),
+                ("lmax", ParameterValue::Integer(6)),
+                ("delta", ParameterValue::Number(0.01)),
             ];
             let m = |class| {
                 let model = models::build(&node(class, Mode::Sound, &values)).unwrap();
@@ -284,7 +286,7 @@ fn light_in_and_light_out_of_a_particle_change_places() {
     // M₁(θ_i,θ_s,φ) = n² P M₃(θ_s,θ_i,−φ)ᵀ P, up to the truncation of the image's integral.
     let n = 1.5;
     let build = |side| {
-        let values = [("substrate", index(n, 0.0)), ("type", Value::Integer(side))];
+        let values = [("substrate", index(n, 0.0)), ("type", ParameterValue::Integer(side))];
         models::build(&node("Bobbert_Vlieger_BRDF_Model", Mode::Sound, &values)).unwrap()
     };
     let p = scattering::Mueller::diagonal([1.0, 1.0, -1.0, 1.0]);
@@ -301,26 +303,26 @@ fn models_far_from_the_usual_are_refused_or_finite() {
     let classes = models::all().map(|spec| &spec.class);
     for class in classes.filter(|class| class.parameter("improve").is_some()) {
         for (name, value) in [
-            ("radius", Value::Number(0.0)),
-            ("radius", Value::Number(1e-9)),
-            ("radius", Value::Number(1e3)),
-            ("radius", Value::Number(f64::NAN)),
-            ("delta", Value::Number(1e9)),
-            ("delta", Value::Number(-1.0)),
-            ("lmax", Value::Integer(i32::MIN)),
-            ("lmax", Value::Integer(90)),
-            ("lmax", Value::Integer(1)),
-            ("order", Value::Integer(3)),
+            ("radius", ParameterValue::Number(0.0)),
+            ("radius", ParameterValue::Number(1e-9)),
+            ("radius", ParameterValue::Number(1e3)),
+            ("radius", ParameterValue::Number(f64::NAN)),
+            ("delta", ParameterValue::Number(1e9)),
+            ("delta", ParameterValue::Number(-1.0)),
+            ("lmax", ParameterValue::Integer(i32::MIN)),
+            ("lmax", ParameterValue::Integer(90)),
+            ("lmax", ParameterValue::Integer(1)),
+            ("order", ParameterValue::Integer(3)),
             ("spherecoat", film(1.5, 0.0, 0.06)),
-            ("order", Value::Integer(i32::MAX)),
-            ("Norm_Inc_Approx", Value::Integer(7)),
+            ("order", ParameterValue::Integer(i32::MAX)),
+            ("Norm_Inc_Approx", ParameterValue::Integer(7)),
             ("sphere", index(0.0, 0.0)),
             ("particle", index(0.0, 0.0)),
             ("particle", index(0.1, 2000.0)),
-            ("mmax", Value::Integer(-1)),
-            ("mmax", Value::Integer(1)),
+            ("mmax", ParameterValue::Integer(-1)),
+            ("mmax", ParameterValue::Integer(1)),
             ("substrate", index(0.0, 0.0)),
-            ("density", Value::Number(-1.0)),
+            ("density", ParameterValue::Number(-1.0)),
         ] {
             if class.parameter(name).is_none() {
                 continue;

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use reference::{FILE, geometry, list, mueller, node, number, relative_difference};
 use scattering::{
-    Basis, Direction, Geometry, Incidence, Mode, Model, Node, models,
+    Basis, Direction, Geometry, Incidence, Mode, Model, ParameterNode, models,
     shadow::{Shadow, sancer::lambda},
     slope::SlopeDistribution,
     spec,
@@ -33,7 +33,7 @@ fn slopes(sigma_x: &str, sigma_y: &str) -> Box<dyn SlopeDistribution> {
 }
 
 /// The facet model `class` with anisotropic Gaussian slopes and the Sancer function if `shadow`.
-fn facets(class: &str, check: &Json, more: &[(&str, &str)], shadow: bool) -> Node {
+fn facets(class: &str, check: &Json, more: &[(&str, &str)], shadow: bool) -> ParameterNode {
     let (sigma_x, sigma_y) = sigmas(check);
     let mut params = vec![
         ("sdf", "Anisotropic_Gaussian_Slope_Distribution_Function"),
@@ -79,7 +79,7 @@ fn the_density_of_slopes_agrees_with_the_reference() {
     }
 }
 
-fn assert_matrix(node: &Node, check: &Json) {
+fn assert_matrix(node: &ParameterNode, check: &Json) {
     let got = models::build(node).unwrap().mueller(&geometry(check), Basis::Psps);
     let difference = relative_difference(&got, &mueller(&check["mueller"]));
     assert!(difference < TOLERANCE, "{difference:e}: {check}");

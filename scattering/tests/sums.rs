@@ -1,16 +1,18 @@
 //! Sums of Mueller matrices over directions, as detectors make them.
 
 use scattering::{
-    Basis, Direction, Incidence, Mode, Model, Mueller, Node, Value, models, optics::Index,
-    polarization::Weights,
+    Basis, Direction, Incidence, Mode, Model, Mueller, ParameterNode, ParameterValue, models,
+    optics::RefractiveIndex, polarization::DirectionWeights,
 };
 
 fn model(name: &str, mode: Mode, side: i32) -> Model {
-    let mut node = Node::with_defaults(&models::find(name).unwrap().class, mode);
+    let mut node = ParameterNode::with_defaults(&models::find(name).unwrap().class, mode);
     if side > 0 {
-        node = node.with("substrate", Value::Index(Index::constant(1.5, 0.0))).unwrap();
+        node = node
+            .with("substrate", ParameterValue::Index(RefractiveIndex::constant(1.5, 0.0)))
+            .unwrap();
     }
-    models::build(&node.with("type", Value::Integer(side)).unwrap()).unwrap()
+    models::build(&node.with("type", ParameterValue::Integer(side)).unwrap()).unwrap()
 }
 
 /// Directions all over the half space, with that of the beam itself and some at the horizon.
@@ -23,8 +25,8 @@ fn directions(count: usize) -> Vec<Direction> {
     (0..count).map(direction).collect()
 }
 
-fn weights(count: usize) -> Weights {
-    let mut weights = Weights::default();
+fn weights(count: usize) -> DirectionWeights {
+    let mut weights = DirectionWeights::default();
     for k in (0..count).map(|k| k as f64) {
         let turn = 0.3 * k;
         weights.push((0.7 * k).cos(), [turn.cos(), turn.sin()]);
@@ -33,7 +35,7 @@ fn weights(count: usize) -> Weights {
 }
 
 /// Σ w R(β)ᵀ M written down matrix by matrix.
-fn expected(matrices: &[Mueller], weights: &Weights, sign: f64) -> Mueller {
+fn expected(matrices: &[Mueller], weights: &DirectionWeights, sign: f64) -> Mueller {
     let mut sum = Mueller::ZERO;
     for (k, m) in matrices.iter().enumerate() {
         let (c, s) = (weights.cos2b[k], sign * weights.sin2b[k]);

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 use glam::{DMat3, DVec3};
 use reference::{FILE, TOLERANCE, list, mueller, node, number, relative_difference};
 use scattering::{
-    Basis, Geometry, Mode, Model, Mueller, Node, Surface, SurfaceError, Value, models,
-    optics::Index, spec::find_class,
+    Basis, Geometry, Mode, Model, Mueller, ParameterNode, ParameterValue, Surface, SurfaceError,
+    models, optics::RefractiveIndex, spec::find_class,
 };
 use serde_json::Value as Json;
 
@@ -17,15 +17,15 @@ const BASES: [Basis; 3] = [Basis::Psps, Basis::Xyxy, Basis::Plane];
 /// Facets with a direction on glass, for light of NIST's `type` number `side`.
 fn brushed(side: i32) -> Model {
     let class = find_class("Anisotropic_Exponential_Slope_Distribution_Function").unwrap();
-    let slopes = Node::with_defaults(class, Mode::Sound)
-        .with("sx", Value::Number(0.4))
-        .and_then(|node| node.with("sy", Value::Number(0.15)))
+    let slopes = ParameterNode::with_defaults(class, Mode::Sound)
+        .with("sx", ParameterValue::Number(0.4))
+        .and_then(|node| node.with("sy", ParameterValue::Number(0.15)))
         .unwrap();
     let class = &models::find("Facet_BRDF_Model").unwrap().class;
-    let node = Node::with_defaults(class, Mode::Sound)
-        .with("substrate", Value::Index(Index::constant(1.5, 0.0)))
-        .and_then(|node| node.with("type", Value::Integer(side)))
-        .and_then(|node| node.with("sdf", Value::Member(slopes.into())))
+    let node = ParameterNode::with_defaults(class, Mode::Sound)
+        .with("substrate", ParameterValue::Index(RefractiveIndex::constant(1.5, 0.0)))
+        .and_then(|node| node.with("type", ParameterValue::Integer(side)))
+        .and_then(|node| node.with("sdf", ParameterValue::Member(slopes.into())))
         .unwrap();
     models::build(&node).unwrap()
 }

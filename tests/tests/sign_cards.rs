@@ -4,15 +4,18 @@
 
 use std::f64::consts::FRAC_1_PI;
 
-use scattering::{Basis, Geometry, Mode, Mueller, Node, Value, models, optics::Index};
+use scattering::{
+    Basis, Geometry, Mode, Mueller, ParameterNode, ParameterValue, models, optics::RefractiveIndex,
+};
 
 const DOCUMENT: &str = include_str!("../../docs/conventions.md");
 
 /// The model `class` on a substrate of index n + ik.
 fn model(class: &str, (n, k): (f64, f64)) -> models::Model {
     let class = &models::find(class).expect("the class is in the registry").class;
-    let node = Node::with_defaults(class, Mode::Sound);
-    let node = node.with("substrate", Value::Index(Index::constant(n, k))).unwrap();
+    let node = ParameterNode::with_defaults(class, Mode::Sound);
+    let node =
+        node.with("substrate", ParameterValue::Index(RefractiveIndex::constant(n, k))).unwrap();
     models::build(&node).unwrap()
 }
 

@@ -6,7 +6,7 @@
 //! $$ \mathrm{RGB}_c = \sum_{\lambda,k} w_{ck}(\lambda)\,[\mathbf{M}(\lambda)\,\mathbf{S}]_k $$
 
 use glam::DVec3;
-use scattering::{Basis, Model, Mueller, Pairs, Side, Stokes};
+use scattering::{Basis, DirectionPairs, Model, Mueller, Side, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid};
 
 use super::{MaterialError, Prepared, table::scale};
@@ -139,7 +139,7 @@ impl Lobes {
     fn batch(&self, pairs: &[(DVec3, DVec3)], out: Out, answers: &mut [f32]) {
         // The side is no matter of the wavelength.
         let side = self.models.first().map_or(Side::DownUp, |model| model.common().side);
-        let seen = Pairs::new(side, pairs);
+        let seen = DirectionPairs::new(side, pairs);
         let mut matrices = vec![Mueller::ZERO; seen.places().len()];
         let mut colours = vec![[0.0; 3]; matrices.len()];
         let width = self.width(out);

@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use scattering::{
-    Basis, Direction, Incidence, Model, Mueller, polarization::Weights, special::gauss,
+    Basis, Direction, Incidence, Model, Mueller, polarization::DirectionWeights, special::gauss,
 };
 
 use super::table::Patch;
@@ -28,7 +28,7 @@ const RING: usize = 360;
 #[derive(Debug, Default)]
 pub(super) struct Probes {
     directions: Vec<Direction>,
-    weights: Weights,
+    weights: DirectionWeights,
     /// Per patch the end of its directions.
     ends: Vec<usize>,
     /// Per patch its projected solid angle, sr.

@@ -15,7 +15,7 @@ use crate::DataFiles;
 #[derive(Clone)]
 pub(crate) struct FormulaState {
     text: Arc<str>,
-    function: spec::Formula,
+    function: spec::FormulaFn,
 }
 
 impl fmt::Debug for FormulaState {
@@ -42,7 +42,7 @@ impl FormulaState {
         &self.text
     }
 
-    pub(crate) fn function(&self) -> spec::Formula {
+    pub(crate) fn function(&self) -> spec::FormulaFn {
         self.function.clone()
     }
 }
@@ -56,7 +56,7 @@ pub(crate) fn columns(
     variable: &str,
     element: usize,
     library: &DataFiles,
-) -> Result<spec::Formula, SetError> {
+) -> Result<spec::FormulaFn, SetError> {
     let text = expr.text();
     if let Some(name) = expr.names().iter().find(|name| *name != variable) {
         let problem = format!("{text:?} reads {name}, which is not its variable {variable}");

@@ -6,7 +6,7 @@ use std::{
 };
 
 use mist_format::{Dialect, number::whole_number, optics::IndexText};
-use scattering::optics::{Index, Table};
+use scattering::optics::{RealFunction, RefractiveIndex};
 
 use super::{ParameterContext, SetError, source::TableSource, table::TableState};
 use crate::quirk::Quirk;
@@ -126,13 +126,14 @@ impl IndexState {
         self.misread
     }
 
-    pub(crate) fn value(&self) -> Index {
+    pub(crate) fn value(&self) -> RefractiveIndex {
         let (n, k) = (self.n.value(), self.k.value());
         match self.held {
-            None => Index { n, k },
-            Some(held) => {
-                Index { n: still(n, held.lambda, held.n), k: still(k, held.lambda, held.k) }
-            }
+            None => RefractiveIndex { n, k },
+            Some(held) => RefractiveIndex {
+                n: still(n, held.lambda, held.n),
+                k: still(k, held.lambda, held.k),
+            },
         }
     }
 }
@@ -147,6 +148,6 @@ fn is_misread(text: &str) -> bool {
 }
 
 /// `table`, but `value` at the abscissa `at`.
-fn still(table: Table, at: f64, value: f64) -> Table {
-    Table::Formula(Arc::new(move |x| if x == at { value } else { table.at(x) }))
+fn still(table: RealFunction, at: f64, value: f64) -> RealFunction {
+    RealFunction::Formula(Arc::new(move |x| if x == at { value } else { table.at(x) }))
 }

@@ -3,7 +3,7 @@
 use std::hash::{Hash, Hasher};
 
 use mist_format::{number::general, suggestion::did_you_mean};
-use scattering::{Class, Mode, Node, spec::Met};
+use scattering::{Class, Mode, ParameterNode, spec::SharedNotices};
 
 use super::{ParameterContext, SetError, state::ParameterState};
 
@@ -124,8 +124,8 @@ impl ObjectState {
         }
     }
 
-    pub(crate) fn node(&self, mode: Mode, met: &Met) -> Node {
+    pub(crate) fn node(&self, mode: Mode, met: &SharedNotices) -> ParameterNode {
         let values = self.slots.iter().map(|slot| slot.value(mode, met)).collect();
-        Node { class: self.class, values, mode, met: met.clone() }
+        ParameterNode { class: self.class, values, mode, met: met.clone() }
     }
 }

@@ -7,7 +7,7 @@ use mist_format::{
     optics::{IndexText, TableText},
     table::{ColumnTable, FormulaFile},
 };
-use scattering::optics::{Axis, Rise, Table};
+use scattering::optics::{AbscissaScale, RealFunction, TableInterpolation};
 
 use super::{ParameterContext, SetError, formula::columns};
 use crate::DataFiles;
@@ -28,8 +28,8 @@ pub(crate) enum TableSource {
 /// How a source is read.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Interpolation {
-    pub(crate) axis: Axis,
-    pub(crate) rise: Rise,
+    pub(crate) axis: AbscissaScale,
+    pub(crate) rise: TableInterpolation,
     /// Parameters of a formula file that differ from the file's own values.
     pub(crate) parameters: Vec<(String, f64)>,
 }
@@ -89,16 +89,16 @@ impl TableSource {
         column: usize,
         reading: &Interpolation,
         library: &DataFiles,
-    ) -> Result<Table, SetError> {
+    ) -> Result<RealFunction, SetError> {
         let element = column.checked_sub(2).ok_or_else(|| {
             SetError::value("column 1 holds the abscissa; values stand in column 2 and beyond")
         })?;
         match self {
             Self::Constant(values) => {
-                Ok(Table::constant(values.get(element).copied().unwrap_or(0.0)))
+                Ok(RealFunction::constant(values.get(element).copied().unwrap_or(0.0)))
             }
             Self::Formula { variable, columns: expr } => {
-                Ok(Table::Formula(columns(expr, variable, element, library)?))
+                Ok(RealFunction::Formula(columns(expr, variable, element, library)?))
             }
             Self::Rows { file, table } => points(file, table, element, reading),
             Self::Parametric { file, formula } => {
@@ -114,7 +114,7 @@ impl TableSource {
                 }
                 formula.columns_at(0.5, &value).map_err(wrong)?;
                 let formula = formula.clone();
-                Ok(Table::Formula(Arc::new(move |x| {
+                Ok(RealFunction::Formula(Arc::new(move |x| {
                     let columns = formula.columns_at(x, &value).ok().flatten();
                     columns
                         .map_or(f64::NAN, |all| all.as_slice().get(element).copied().unwrap_or(0.0))
@@ -139,12 +139,12 @@ fn points(
     table: &ColumnTable,
     element: usize,
     reading: &Interpolation,
-) -> Result<Table, SetError> {
+) -> Result<RealFunction, SetError> {
     let column = element + 1;
     if column >= table.columns() {
         let problem = format!("{file} has {} columns, not {}", table.columns(), column + 1);
         return Err(SetError::value(problem));
     }
     let rows: Vec<(f64, f64)> = table.rows().map(|row| (row[0], row[column])).collect();
-    Ok(Table::points(&rows, reading.axis, reading.rise))
+    Ok(RealFunction::points(&rows, reading.axis, reading.rise))
 }

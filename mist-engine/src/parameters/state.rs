@@ -11,8 +11,8 @@ use mist_format::{
     suggestion::did_you_mean,
 };
 use scattering::{
-    Defect, Family, Kind, Mode, Param, Value,
-    spec::{self, Met},
+    Defect, Family, Mode, Parameter, ParameterKind, ParameterValue,
+    spec::{self, SharedNotices},
 };
 
 use super::{
@@ -60,20 +60,20 @@ impl Hash for ParameterState {
 
 impl ParameterState {
     /// The default that the registry declares.
-    pub(crate) fn default_of(param: &Param) -> Self {
+    pub(crate) fn default_of(param: &Parameter) -> Self {
         let default = param.default;
         match param.kind {
-            Kind::Number => Self::Number(whole_number(default).unwrap_or(f64::NAN)),
-            Kind::Integer => Self::Integer(
+            ParameterKind::Number => Self::Number(whole_number(default).unwrap_or(f64::NAN)),
+            ParameterKind::Integer => Self::Integer(
                 integer_prefix(default).value.and_then(|v| v.try_into().ok()).unwrap_or(0),
             ),
-            Kind::Text => Self::Text(default.into()),
-            Kind::File => Self::File { name: default.into(), text: "".into() },
-            Kind::Formula => Self::Formula(Arc::new(FormulaState::constant(default))),
-            Kind::Index => Self::Index(Persistent::new(IndexState::constant(default))),
-            Kind::Table => Self::Table(Persistent::new(TableState::constant(default))),
-            Kind::Films => Self::Films(Persistent::default()),
-            Kind::Member(..) => {
+            ParameterKind::Text => Self::Text(default.into()),
+            ParameterKind::File => Self::File { name: default.into(), text: "".into() },
+            ParameterKind::Formula => Self::Formula(Arc::new(FormulaState::constant(default))),
+            ParameterKind::Index => Self::Index(Persistent::new(IndexState::constant(default))),
+            ParameterKind::Table => Self::Table(Persistent::new(TableState::constant(default))),
+            ParameterKind::Films => Self::Films(Persistent::default()),
+            ParameterKind::Member(..) => {
                 let class = spec::find_class(default).expect("a test builds every default");
                 Self::Member(Persistent::new(ObjectState::new(class)))
             }
@@ -83,7 +83,7 @@ impl ParameterState {
     /// Sets the parameter itself.
     pub(crate) fn set(
         &mut self,
-        param: &Param,
+        param: &Parameter,
         text: &str,
         context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
@@ -95,19 +95,21 @@ impl ParameterState {
             return table.edit().replace(text, context);
         }
         *self = match param.kind {
-            Kind::Number => Self::Number(number(text, context.mode)?),
-            Kind::Integer => Self::Integer(integer(text, context.mode)?),
-            Kind::Text => Self::Text(text.into()),
-            Kind::File => {
+            ParameterKind::Number => Self::Number(number(text, context.mode)?),
+            ParameterKind::Integer => Self::Integer(integer(text, context.mode)?),
+            ParameterKind::Text => Self::Text(text.into()),
+            ParameterKind::File => {
                 let file =
                     context.library.text(text).map_err(|e| SetError::value(e.to_string()))?;
                 Self::File { name: text.into(), text: file }
             }
-            Kind::Formula => Self::Formula(Arc::new(FormulaState::read(text, context.library)?)),
-            Kind::Index => Self::Index(Persistent::new(IndexState::read(text, context)?)),
-            Kind::Table => unreachable!("a table is replaced in place"),
-            Kind::Films => Self::Films(Persistent::new(FilmsState::read(text, context)?)),
-            Kind::Member(family, base) => {
+            ParameterKind::Formula => {
+                Self::Formula(Arc::new(FormulaState::read(text, context.library)?))
+            }
+            ParameterKind::Index => Self::Index(Persistent::new(IndexState::read(text, context)?)),
+            ParameterKind::Table => unreachable!("a table is replaced in place"),
+            ParameterKind::Films => Self::Films(Persistent::new(FilmsState::read(text, context)?)),
+            ParameterKind::Member(family, base) => {
                 let class = member(text, family, base)?;
                 Self::Member(Persistent::new(ObjectState::new(class)))
             }
@@ -125,7 +127,7 @@ impl ParameterState {
     /// Sets a parameter below this one; `before` is this one as it was last evaluated.
     pub(crate) fn set_below(
         &mut self,
-        param: &Param,
+        param: &Parameter,
         rest: &str,
         text: &str,
         context: &mut ParameterContext<'_>,
@@ -157,21 +159,21 @@ impl ParameterState {
         }
     }
 
-    pub(crate) fn value(&self, mode: Mode, met: &Met) -> Value {
+    pub(crate) fn value(&self, mode: Mode, met: &SharedNotices) -> ParameterValue {
         match self {
-            Self::Number(x) => Value::Number(*x),
-            Self::Integer(i) => Value::Integer(*i),
-            Self::Text(text) | Self::File { text, .. } => Value::Text(text.clone()),
-            Self::Formula(formula) => Value::Formula(formula.function()),
+            Self::Number(x) => ParameterValue::Number(*x),
+            Self::Integer(i) => ParameterValue::Integer(*i),
+            Self::Text(text) | Self::File { text, .. } => ParameterValue::Text(text.clone()),
+            Self::Formula(formula) => ParameterValue::Formula(formula.function()),
             Self::Index(index) => {
                 if index.is_misread() && mode == Mode::Sound {
                     met.lock().expect("no build panics").insert(Defect::IndexText.into());
                 }
-                Value::Index(index.value())
+                ParameterValue::Index(index.value())
             }
-            Self::Table(table) => Value::Table(table.value()),
-            Self::Films(films) => Value::Films(films.value()),
-            Self::Member(object) => Value::Member(Arc::new(object.node(mode, met))),
+            Self::Table(table) => ParameterValue::Table(table.value()),
+            Self::Films(films) => ParameterValue::Films(films.value()),
+            Self::Member(object) => ParameterValue::Member(Arc::new(object.node(mode, met))),
         }
     }
 }

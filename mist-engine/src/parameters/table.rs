@@ -6,7 +6,7 @@ use std::{
 };
 
 use mist_format::number::{number_prefix, whole_number};
-use scattering::optics::{Axis, Rise, Table};
+use scattering::optics::{AbscissaScale, RealFunction, TableInterpolation};
 
 use super::{
     ParameterContext, SetError,
@@ -20,7 +20,7 @@ pub(crate) struct TableState {
     source: TableSource,
     column: usize,
     reading: Interpolation,
-    table: Table,
+    table: RealFunction,
 }
 
 impl Hash for TableState {
@@ -50,7 +50,7 @@ impl TableState {
             source: TableSource::Constant(values),
             column,
             reading: Interpolation::default(),
-            table: Table::constant(value),
+            table: RealFunction::constant(value),
         }
     }
 
@@ -80,7 +80,7 @@ impl TableState {
         Ok(())
     }
 
-    pub(crate) fn value(&self) -> Table {
+    pub(crate) fn value(&self) -> RealFunction {
         self.table.clone()
     }
 
@@ -112,20 +112,20 @@ impl TableState {
     }
 }
 
-fn axis(text: &str) -> Result<Axis, SetError> {
+fn axis(text: &str) -> Result<AbscissaScale, SetError> {
     match text {
-        "lin" => Ok(Axis::Linear),
-        "log" => Ok(Axis::Log),
+        "lin" => Ok(AbscissaScale::Linear),
+        "log" => Ok(AbscissaScale::Log),
         _ => Err(SetError::value(format!("{text:?} is not an interpolation: write lin or log"))),
     }
 }
 
-fn rise(text: &str) -> Result<Rise, SetError> {
+fn rise(text: &str) -> Result<TableInterpolation, SetError> {
     match text {
-        "lin" => Ok(Rise::Linear),
-        "log" => Ok(Rise::Log),
-        "spline" => Ok(Rise::Spline),
-        "logspline" => Ok(Rise::LogSpline),
+        "lin" => Ok(TableInterpolation::Linear),
+        "log" => Ok(TableInterpolation::Log),
+        "spline" => Ok(TableInterpolation::Spline),
+        "logspline" => Ok(TableInterpolation::LogSpline),
         _ => Err(SetError::value(format!(
             "{text:?} is not an interpolation: write lin, log, spline or logspline"
         ))),

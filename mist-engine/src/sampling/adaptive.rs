@@ -172,7 +172,7 @@ impl<'a> Cubature<'a> {
         stop: &'a (dyn Fn() -> bool + Sync),
     ) -> Result<Self, AdaptiveError> {
         let (peaks, probes) = peaks::find(integrand);
-        let rays = Rays::new(region, peaks[0], &integrand.spots())?;
+        let rays = Rays::new(region, peaks[0], &integrand.lobe_supports())?;
         let first = rays.first_cells(&peaks[1..]);
         let mut cubature = Self { integrand, rays, stop, cells: Vec::new(), evaluations: probes };
         cubature.cells = cubature.measure(first)?;

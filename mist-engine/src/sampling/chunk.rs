@@ -2,8 +2,8 @@
 
 use scattering::{
     Direction,
-    lanes::{Batch, Real, Vectors, WIDTH, with_widest},
-    polarization::Weights,
+    lanes::{LaneKernel, Real, SimdLevel, WIDTH, dispatch},
+    polarization::DirectionWeights,
 };
 
 use super::{lifting::Lifted, points::Points, turn::Turn};
@@ -13,7 +13,7 @@ use super::{lifting::Lifted, points::Points, turn::Turn};
 pub(crate) struct Chunk {
     pub(crate) directions: Vec<Direction>,
     /// Weights of the sampling times cos θ, turned towards the centre of polarization.
-    pub(crate) weights: Weights,
+    pub(crate) weights: DirectionWeights,
 }
 
 /// Memory for the making of chunks, to be used again.
@@ -41,7 +41,7 @@ impl Chunk {
         let whole = lifted.count().next_multiple_of(WIDTH);
         self.directions.reserve(whole);
         self.weights.resize(whole);
-        with_widest(Filling { chunk: self, lifted, turn });
+        dispatch(Filling { chunk: self, lifted, turn });
         self.directions.truncate(lifted.count());
         self.weights.resize(lifted.count());
     }
@@ -54,11 +54,11 @@ struct Filling<'a> {
     turn: &'a Turn,
 }
 
-impl Batch for Filling<'_> {
+impl LaneKernel for Filling<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         let Self { chunk: Chunk { directions, weights }, lifted, turn } = self;
-        let Weights { weight, cos2b, sin2b } = weights;
+        let DirectionWeights { weight, cos2b, sin2b } = weights;
         let turns = cos2b.as_chunks_mut().0.iter_mut().zip(sin2b.as_chunks_mut().0);
         let weights = weight.as_chunks_mut().0.iter_mut().zip(turns);
         for ((v, from), (weight, (cos2b, sin2b))) in lifted.groups().zip(weights) {
@@ -74,7 +74,7 @@ impl Batch for Filling<'_> {
 
 /// The directions of several unit vectors above the horizon.
 #[inline(always)]
-pub(super) fn seen_group<V: Vectors>(vectors: V, v: &[[f64; WIDTH]; 3]) -> [Direction; WIDTH] {
+pub(super) fn seen_group<V: SimdLevel>(vectors: V, v: &[[f64; WIDTH]; 3]) -> [Direction; WIDTH] {
     let [x, y, z] = v;
     let [sin, across, sin_phi, cos_phi] =
         sines([vectors.load(x), vectors.load(y), vectors.load(z)]);
@@ -101,6 +101,6 @@ fn of_the_normal(x: f64, y: f64) -> (f64, f64) {
 fn sines<R: Real>([x, y, z]: [R; 3]) -> [R; 4] {
     let square = (-z + 1.0) * (z + 1.0);
     let across = (x * x + y * y).sqrt();
-    let per_across = z.all(1.0) / across;
-    [square.choose(square, z.all(0.0)).sqrt(), across, y * per_across, x * per_across]
+    let per_across = z.splat(1.0) / across;
+    [square.select(square, z.splat(0.0)).sqrt(), across, y * per_across, x * per_across]
 }

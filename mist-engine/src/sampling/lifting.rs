@@ -2,7 +2,7 @@
 //! are kept or left several at once, by the cells of the region's polygon.
 
 use glam::{DVec2, DVec3};
-use scattering::lanes::{Batch, Real, Vectors, WIDTH, with_widest};
+use scattering::lanes::{LaneKernel, Real, SimdLevel, WIDTH, dispatch};
 
 use super::{Inside, points::Points, projection::Projection};
 use crate::region::{Cell, Cells, Frame};
@@ -54,16 +54,16 @@ impl<'a> Known<'a> {
     fn numbers<R: Real>(&self, plane: [R; 2], [x, y, z]: [R; 3]) -> R {
         let above = match (self.inside, self.inside.cells()) {
             (_, Some(cells)) => cells.number([x, y]),
-            (Inside::Cone, _) => z.all(INSIDE),
+            (Inside::Cone, _) => z.splat(INSIDE),
             (Inside::Outside { axis, cos }, _) => {
                 let to_axis = x * axis.x + y * axis.y + z * axis.z;
-                (-to_axis + *cos).choose(z.all(INSIDE), z.all(OUTSIDE))
+                (-to_axis + *cos).select(z.splat(INSIDE), z.splat(OUTSIDE))
             }
-            (Inside::Polygon(_) | Inside::One(_), None) => z.all(ASK),
+            (Inside::Polygon(_) | Inside::One(_), None) => z.splat(ASK),
         };
-        let outside = z.all((self.verdicts.len() - 1) as f64);
+        let outside = z.splat((self.verdicts.len() - 1) as f64);
         let clearance = self.projection.clearance(plane, z);
-        clearance.choose(z.choose(above, outside), z.all(ASK))
+        clearance.select(z.select(above, outside), z.splat(ASK))
     }
 }
 
@@ -88,7 +88,7 @@ impl Lifted {
         let whole = points.count().next_multiple_of(WIDTH);
         self.v.iter_mut().chain([&mut self.weights]).for_each(|part| part.resize(whole, 0.0));
         self.count = 0;
-        with_widest(Lifting { points, known, ask, lifted: self });
+        dispatch(Lifting { points, known, ask, lifted: self });
     }
 
     /// How many there are.
@@ -111,7 +111,7 @@ impl Lifted {
     }
 
     #[inline(always)]
-    fn push_group<V: Vectors>(&mut self, vectors: V, v: [V::Real; 3], weights: V::Real) {
+    fn push_group<V: SimdLevel>(&mut self, vectors: V, v: [V::Vector; 3], weights: V::Vector) {
         let place = self.count..self.count + WIDTH;
         for (part, v) in self.v.iter_mut().zip(v) {
             part[place.clone()].copy_from_slice(&vectors.store(v));
@@ -128,9 +128,9 @@ struct Lifting<'a, F> {
     lifted: &'a mut Lifted,
 }
 
-impl<F: FnMut(Asked) -> Option<(DVec3, f64)>> Batch for Lifting<'_, F> {
+impl<F: FnMut(Asked) -> Option<(DVec3, f64)>> LaneKernel for Lifting<'_, F> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         let Self { points, known, mut ask, lifted } = self;
         let mut left = points.count();
         for (px, py) in points.groups() {

@@ -52,17 +52,17 @@ impl Projection {
             Self::Equidistant => {
                 let t = z2.sqrt();
                 let (sin, cos) = t.sin_cos();
-                let weight = (-t).choose(t.all(1.0), sin / t);
+                let weight = (-t).select(t.splat(1.0), sin / t);
                 ([x * weight, y * weight, cos], weight)
             }
             Self::EqualArea => {
                 let square = -z2 + 2.0;
-                let stretch = square.choose(square, z2.all(0.0)).sqrt();
-                ([x * stretch, y * stretch, -z2 + 1.0], z2.all(1.0))
+                let stretch = square.select(square, z2.splat(0.0)).sqrt();
+                ([x * stretch, y * stretch, -z2 + 1.0], z2.splat(1.0))
             }
             Self::Orthographic => {
                 let z = (-z2 + 1.0).sqrt();
-                ([x, y, z], z.all(1.0) / z)
+                ([x, y, z], z.splat(1.0) / z)
             }
         }
     }
@@ -93,7 +93,7 @@ impl Projection {
             Self::Equidistant | Self::EqualArea => to_horizon,
             Self::Orthographic => {
                 let to_rim = -(x * x + y * y) + 1.0 - DELICATE;
-                to_rim.choose(to_horizon, to_rim)
+                to_rim.select(to_horizon, to_rim)
             }
         }
     }

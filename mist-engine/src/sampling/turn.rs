@@ -22,8 +22,8 @@ pub(crate) struct Turn {
 #[inline(always)]
 fn unless_zero<R: Real>([x, y]: [R; 2], usual: [R; 2], special: [R; 2]) -> [R; 2] {
     let (x, y) = (x.abs() - ZERO, y.abs() - ZERO);
-    let (cos, sin) = (y.choose(usual[0], special[0]), y.choose(usual[1], special[1]));
-    [x.choose(usual[0], cos), x.choose(usual[1], sin)]
+    let (cos, sin) = (y.select(usual[0], special[0]), y.select(usual[1], special[1]));
+    [x.select(usual[0], cos), x.select(usual[1], sin)]
 }
 
 /// cos 2b and sin 2b of the argument b of x + iy; 1 and 0 for the origin.
@@ -31,9 +31,9 @@ fn unless_zero<R: Real>([x, y]: [R; 2], usual: [R; 2], special: [R; 2]) -> [R; 2
 fn doubled<R: Real>(x: R, y: R) -> [R; 2] {
     let square = x * x + y * y;
     let is_zero = -square;
-    let per_square = x.all(1.0) / square;
+    let per_square = x.splat(1.0) / square;
     let doubled = [(x * x - y * y) * per_square, x * y * 2.0 * per_square];
-    [is_zero.choose(x.all(1.0), doubled[0]), is_zero.choose(x.all(0.0), doubled[1])]
+    [is_zero.select(x.splat(1.0), doubled[0]), is_zero.select(x.splat(0.0), doubled[1])]
 }
 
 impl Turn {
@@ -56,9 +56,9 @@ impl Turn {
             let at_direction = (x * x + y * y) * c.z - both * z;
             let usual = doubled(k * k + at_center * at_direction, k * (at_direction - at_center));
             let [cos, sin] = doubled(c.x, -c.y);
-            unless_zero([x, y], usual, [x.all(cos), x.all(sin)])
+            unless_zero([x, y], usual, [x.splat(cos), x.splat(sin)])
         };
-        unless_zero([x - c.x, y - c.y], turned, [x.all(1.0), x.all(0.0)])
+        unless_zero([x - c.x, y - c.y], turned, [x.splat(1.0), x.splat(0.0)])
     }
 }
 

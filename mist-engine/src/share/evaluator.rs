@@ -4,7 +4,7 @@ use std::{collections::BTreeSet, fmt::Write as _, sync::Arc};
 
 use mist_format::{Diagnostic, number::general};
 use rayon::prelude::*;
-use scattering::{Direction, Incidence, Mueller, Notice, ParamError};
+use scattering::{Direction, Incidence, Mueller, Notice, ParameterError};
 
 use super::{
     cache::{FastMap, WeightedCache},
@@ -101,7 +101,7 @@ impl MuellerResult {
 
 /// Why a piece of work has no result.
 enum TaskError {
-    Parameter(ParamError),
+    Parameter(ParameterError),
     Adaptive(AdaptiveError),
     Stopped,
 }

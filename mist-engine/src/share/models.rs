@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use scattering::{Mode, Model, Notice, ParamError, spec::Met};
+use scattering::{Mode, Model, Notice, ParameterError, spec::SharedNotices};
 
 use super::cache::WeightedCache;
 use crate::parameters::{Fingerprint, ModelParameters};
@@ -14,7 +14,7 @@ const MODELS: usize = 4096;
 pub(crate) struct ModelCell {
     parameters: ModelParameters,
     mode: Mode,
-    built: OnceLock<Result<Built, ParamError>>,
+    built: OnceLock<Result<Built, ParameterError>>,
 }
 
 /// A model with the defects that its sound build stepped around.
@@ -25,10 +25,10 @@ pub(crate) struct Built {
 
 impl ModelCell {
     /// The model, built now if it has not been.
-    pub(crate) fn get(&self) -> Result<&Built, &ParamError> {
+    pub(crate) fn get(&self) -> Result<&Built, &ParameterError> {
         self.built
             .get_or_init(|| {
-                let met = Met::default();
+                let met = SharedNotices::default();
                 let model = scattering::models::build(&self.parameters.node(self.mode, &met))?;
                 let met = met.lock().expect("no build panics").iter().copied().collect();
                 Ok(Built { model, met })

@@ -8,7 +8,7 @@ use mist_engine::{
     sampling::adaptive::{AdaptiveError, Demand, integrate},
 };
 use rayon::prelude::*;
-use scattering::{Basis, Incidence, Mode, Model, Node, Value, models, spec};
+use scattering::{Basis, Incidence, Mode, Model, ParameterNode, ParameterValue, models, spec};
 
 use crate::plane;
 
@@ -22,14 +22,14 @@ struct Case {
     width: f64,
 }
 
-fn node(name: &str) -> Node {
-    Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+fn node(name: &str) -> ParameterNode {
+    ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
 }
 
 /// The facets of `class` with a density of slopes `sdf` of rms `slope`.
 fn with_slopes(class: &str, sdf: &str, slope: f64) -> Model {
-    let sdf = node(sdf).with("s", Value::Number(slope)).unwrap();
-    let facets = node(class).with("sdf", Value::Member(sdf.into())).unwrap();
+    let sdf = node(sdf).with("s", ParameterValue::Number(slope)).unwrap();
+    let facets = node(class).with("sdf", ParameterValue::Member(sdf.into())).unwrap();
     models::build(&facets).unwrap()
 }
 
@@ -45,8 +45,9 @@ pub(crate) fn shadowed(slope: f64) -> Model {
 
 /// Roughness with a spectral density that falls at `1/length`.
 pub(crate) fn rough(length: f64) -> Model {
-    let psd = node("ABC_PSD_Function").with("B", Value::Number(length)).unwrap();
-    let model = node("Microroughness_BRDF_Model").with("psd", Value::Member(psd.into())).unwrap();
+    let psd = node("ABC_PSD_Function").with("B", ParameterValue::Number(length)).unwrap();
+    let model =
+        node("Microroughness_BRDF_Model").with("psd", ParameterValue::Member(psd.into())).unwrap();
     models::build(&model).unwrap()
 }
 

@@ -125,7 +125,7 @@ impl HalfAngles {
 
 #[cfg(test)]
 mod tests {
-    use scattering::{Basis, Mode, Node, models};
+    use scattering::{Basis, Mode, ParameterNode, models};
 
     use super::*;
 
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn conversion_from_the_scattering_plane_equals_conversion_from_psps() {
         let class = &models::find("Diffuse_Subsurface_BRDF_Model").unwrap().class;
-        let model = models::build(&Node::with_defaults(class, Mode::Sound)).unwrap();
+        let model = models::build(&ParameterNode::with_defaults(class, Mode::Sound)).unwrap();
         for (l, v) in [
             (DVec3::new(0.3, 0.2, 0.9), DVec3::new(-0.7, 0.1, 0.5)),
             (DVec3::new(0.3, 0.2, 0.9), DVec3::Z),

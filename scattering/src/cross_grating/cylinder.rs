@@ -8,25 +8,25 @@
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
 use super::{
-    CrossGrating, CrossPattern, CrossProfile, CrossSlice, MEDIA, Media,
-    grid::{CELL, Cell},
+    CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, MEDIA,
+    grid::{CELL, UnitCell},
 };
 use crate::{
-    grating::{Material, levels, not_negative},
-    optics::{Index, Table},
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    grating::{GratingMaterial, levels, not_negative},
+    optics::{RealFunction, RefractiveIndex},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::table("rtop", "0.1", "um", "Radius at the top against azimuth in degrees"),
-    Param::table("rbottom", "0.1", "um", "Radius at the bottom against azimuth in degrees"),
-    Param::number("thickness", "0.1", "um", "Height"),
-    Param::integer("nlevels", "1", "Number of slices"),
-    Param::index("inside", "(1,0)", "Index inside"),
-    Param::index("outside", "(1.5,0)", "Index outside"),
+const OWN: &[Parameter] = &[
+    Parameter::table("rtop", "0.1", "um", "Radius at the top against azimuth in degrees"),
+    Parameter::table("rbottom", "0.1", "um", "Radius at the bottom against azimuth in degrees"),
+    Parameter::number("thickness", "0.1", "um", "Height"),
+    Parameter::integer("nlevels", "1", "Number of slices"),
+    Parameter::index("inside", "(1,0)", "Index inside"),
+    Parameter::index("outside", "(1.5,0)", "Index outside"),
 ];
 
-/// How programs name, parameterize and build a [`Cylinder`].
+/// How programs name, parameterize and build a [`CylinderGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Cylinder_CrossGrating",
@@ -37,27 +37,27 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         params: &[MEDIA, CELL, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Cylinder::read(node)?)),
+    build: |node| Ok(Box::new(CylinderGrating::read(node)?)),
 };
 
 /// Holes or posts.
 #[derive(Clone, Debug)]
-pub struct Cylinder {
-    media: Media,
-    cell: Cell,
-    top: Table,
-    bottom: Table,
+pub struct CylinderGrating {
+    media: CrossGratingMedia,
+    cell: UnitCell,
+    top: RealFunction,
+    bottom: RealFunction,
     thickness: f64,
     levels: usize,
-    inside: Index,
-    outside: Index,
+    inside: RefractiveIndex,
+    outside: RefractiveIndex,
 }
 
-impl Cylinder {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl CylinderGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
-            media: Media::read(node),
-            cell: Cell::read(node)?,
+            media: CrossGratingMedia::read(node),
+            cell: UnitCell::read(node)?,
             top: node.table("rtop").clone(),
             bottom: node.table("rbottom").clone(),
             thickness: not_negative(node, "thickness")?,
@@ -68,9 +68,10 @@ impl Cylinder {
     }
 }
 
-impl CrossGrating for Cylinder {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
-        let materials = [&self.outside, &self.inside].map(|n| Material::from_index(n.at(lambda)));
+impl CrossGrating for CylinderGrating {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
+        let materials =
+            [&self.outside, &self.inside].map(|n| GratingMaterial::from_index(n.at(lambda)));
         let count = self.levels as f64;
         let slices = (0..self.levels).rev().map(|level| {
             let up = (level as f64 + 0.5) / count;

@@ -13,25 +13,25 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::DVec3;
 
 use super::{
-    CrossGrating, CrossPattern, CrossProfile, CrossSlice, MEDIA, Media,
-    grid::{CELL, Cell},
+    CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, MEDIA,
+    grid::{CELL, UnitCell},
 };
 use crate::{
     grating::{
-        Material,
+        GratingMaterial,
         generic::{
             FILE,
-            description::{Description, Surroundings},
+            description::{DescriptionContext, GratingDescription},
             shares,
         },
         levels,
     },
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[Param::integer("nlayers", "10", "Number of slices, about")];
+const OWN: &[Parameter] = &[Parameter::integer("nlayers", "10", "Number of slices, about")];
 
-/// How programs name, parameterize and build a [`Generic`].
+/// How programs name, parameterize and build a [`GenericCrossGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Generic_CrossGrating",
@@ -42,33 +42,34 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         params: &[MEDIA, CELL, FILE, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Generic::read(node)?)),
+    build: |node| Ok(Box::new(GenericCrossGrating::read(node)?)),
 };
 
 /// A crossed grating from a drawing.
 #[derive(Clone, Debug)]
-pub struct Generic {
-    media: Media,
-    cell: Cell,
+pub struct GenericCrossGrating {
+    media: CrossGratingMedia,
+    cell: UnitCell,
     text: Arc<str>,
     values: Arc<str>,
     layers: usize,
 }
 
-impl Generic {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl GenericCrossGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
-            media: Media::read(node),
-            cell: Cell::read(node)?,
+            media: CrossGratingMedia::read(node),
+            cell: UnitCell::read(node)?,
             text: node.text("filename").into(),
             values: node.text("pstring").into(),
             layers: levels(node, "nlayers", 1)?,
         })
     }
 
-    fn slices(&self, drawing: &Drawing) -> Result<Vec<CrossSlice>, String> {
+    fn slices(&self, drawing: &SurfaceDrawing) -> Result<Vec<CrossSlice>, String> {
         let zeta = self.cell.lattice.zeta;
-        let isotropic = |m: &Material| m.epsilon == [m.epsilon[0]; 3] && m.mu == [m.mu[0]; 3];
+        let isotropic =
+            |m: &GratingMaterial| m.epsilon == [m.epsilon[0]; 3] && m.mu == [m.mu[0]; 3];
         if zeta != 0.0 && !drawing.materials.iter().all(isotropic) {
             return Err("anisotropic materials need zeta = 0".to_owned());
         }
@@ -86,10 +87,10 @@ impl Generic {
     }
 }
 
-impl CrossGrating for Generic {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
-        let at_file = |problem: String| ParamError::new("filename", problem);
-        let surroundings = Surroundings {
+impl CrossGrating for GenericCrossGrating {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
+        let at_file = |problem: String| ParameterError::new("filename", problem);
+        let surroundings = DescriptionContext {
             period: self.cell.lattice.d1,
             lambda,
             above: self.media.above.at(lambda),
@@ -99,8 +100,8 @@ impl CrossGrating for Generic {
         let text = text.strip_prefix("CROSSGRATING").ok_or_else(|| {
             at_file("the description does not start with CROSSGRATING".to_owned())
         })?;
-        let description = Description::read(text, &self.values, &surroundings)?;
-        let drawing = Drawing::of(&description).map_err(at_file)?;
+        let description = GratingDescription::read(text, &self.values, &surroundings)?;
+        let drawing = SurfaceDrawing::of(&description).map_err(at_file)?;
         let slices = self.slices(&drawing).map_err(at_file)?;
         Ok(self.media.profile(lambda, self.cell.lattice, slices))
     }
@@ -128,15 +129,15 @@ impl Triangle {
 /// Position of the lower medium in the list of materials.
 const MEDIUM_T: u8 = 0;
 
-struct Drawing {
+struct SurfaceDrawing {
     triangles: Vec<Triangle>,
-    materials: Vec<Material>,
+    materials: Vec<GratingMaterial>,
     /// Distinct heights of vertices, ascending.
     heights: Vec<f64>,
 }
 
-impl Drawing {
-    fn of(description: &Description) -> Result<Self, String> {
+impl SurfaceDrawing {
+    fn of(description: &GratingDescription) -> Result<Self, String> {
         let points = description.vertices::<3>()?;
         let mut materials = vec![description.material("medium_t")?];
         let mut triangles = Vec::new();
@@ -188,9 +189,9 @@ impl Drawing {
 /// The one or two triangles of a line of the file.
 fn boundary(
     line: &str,
-    description: &Description,
+    description: &GratingDescription,
     points: &BTreeMap<String, [f64; 3]>,
-    materials: &mut Vec<Material>,
+    materials: &mut Vec<GratingMaterial>,
 ) -> Result<Vec<Triangle>, String> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let point = |name: &str| {

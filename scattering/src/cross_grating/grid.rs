@@ -3,19 +3,19 @@
 use super::Lattice;
 use crate::{
     cross_grating::lean,
-    grating::{Material, positive},
-    rcw::toeplitz::Series,
-    spec::{Node, Param, ParamError},
+    grating::{GratingMaterial, positive},
+    rcw::toeplitz::FourierSeries,
+    spec::{Parameter, ParameterError, ParameterNode},
 };
 use num_complex::Complex64;
 
 /// The unit cell and its pixels: the second group of every gridded crossed grating.
-pub(super) const CELL: &[Param] = &[
-    Param::number("zeta", "0", "deg", "Angle from y to axis 2"),
-    Param::number("d1", "0.5", "um", "Period along axis 1"),
-    Param::number("d2", "0.5", "um", "Period along axis 2"),
-    Param::integer("grid1", "1024", "Pixels along axis 1"),
-    Param::integer("grid2", "1024", "Pixels along axis 2"),
+pub(super) const CELL: &[Parameter] = &[
+    Parameter::number("zeta", "0", "deg", "Angle from y to axis 2"),
+    Parameter::number("d1", "0.5", "um", "Period along axis 1"),
+    Parameter::number("d2", "0.5", "um", "Period along axis 2"),
+    Parameter::integer("grid1", "1024", "Pixels along axis 1"),
+    Parameter::integer("grid2", "1024", "Pixels along axis 2"),
 ];
 
 /// Most pixels along an axis.
@@ -23,27 +23,27 @@ const MOST_PIXELS: i32 = 8192;
 
 /// A unit cell to be divided into pixels.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cell {
+pub(super) struct UnitCell {
     /// Periods.
     pub(super) lattice: Lattice,
     /// Pixels along both axes.
     pub(super) pixels: [usize; 2],
 }
 
-impl Cell {
+impl UnitCell {
     /// Reads the parameters of [`CELL`].
     ///
     /// # Errors
     ///
     /// For periods that are not positive, axes that coincide, or a number of pixels outside
     /// 1 to 8192.
-    pub(super) fn read(node: &Node) -> Result<Self, ParamError> {
-        let pixels = |name: &str| -> Result<usize, ParamError> {
+    pub(super) fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let pixels = |name: &str| -> Result<usize, ParameterError> {
             let n = node.integer(name);
             if (1..=MOST_PIXELS).contains(&n) {
                 return Ok(n.unsigned_abs() as usize);
             }
-            Err(ParamError::new(name, format!("{n} is not from 1 to {MOST_PIXELS}")))
+            Err(ParameterError::new(name, format!("{n} is not from 1 to {MOST_PIXELS}")))
         };
         Ok(Self {
             lattice: Lattice {
@@ -56,7 +56,11 @@ impl Cell {
     }
 
     /// The cell painted with `materials`; `which` chooses one at the centre (x, y) of a pixel.
-    pub(super) fn paint(&self, materials: Vec<Material>, which: impl Fn(f64, f64) -> u8) -> Grid {
+    pub(super) fn paint(
+        &self,
+        materials: Vec<GratingMaterial>,
+        which: impl Fn(f64, f64) -> u8,
+    ) -> PixelGrid {
         let [n1, n2] = self.pixels;
         let (sin, cos) = self.lattice.zeta.sin_cos();
         let place = |i: usize, n: usize, d: f64| ((i as f64 + 0.5) / n as f64 - 0.5) * d;
@@ -68,31 +72,31 @@ impl Cell {
                 cells.push(which(x1 + x2 * sin, x2 * cos));
             }
         }
-        Grid { pixels: self.pixels, cells, materials }
+        PixelGrid { pixels: self.pixels, cells, materials }
     }
 }
 
 /// A unit cell of pixels.
 #[derive(Clone, Debug)]
-pub struct Grid {
+pub struct PixelGrid {
     pixels: [usize; 2],
     /// Material of every pixel, axis 1 running fastest.
     cells: Vec<u8>,
     /// The materials.
-    pub(super) materials: Vec<Material>,
+    pub(super) materials: Vec<GratingMaterial>,
 }
 
 /// Lines of pixels that look alike.
-pub(super) struct Lines {
+pub(super) struct PixelLines {
     /// One of each look.
     looks: Vec<Vec<u8>>,
     /// Per look, the series along the other axis of where it stands.
-    pub(super) where_: Vec<Series>,
+    pub(super) where_: Vec<FourierSeries>,
 }
 
-impl Grid {
+impl PixelGrid {
     /// The lines along `axis` (0 or 1), with series up to `most` along the other axis.
-    pub(super) fn lines(&self, axis: usize, most: usize) -> Lines {
+    pub(super) fn lines(&self, axis: usize, most: usize) -> PixelLines {
         let [n1, n2] = self.pixels;
         let line = |k: usize| -> Vec<u8> {
             if axis == 0 {
@@ -116,19 +120,19 @@ impl Grid {
         let where_ = (0..looks.len())
             .map(|look| transform(&places, most, |&at| f64::from(u8::from(at == look)).into()))
             .collect();
-        Lines { looks, where_ }
+        PixelLines { looks, where_ }
     }
 }
 
-impl Lines {
+impl PixelLines {
     /// The series along the line of each look of a function of the material.
-    pub(super) fn series(&self, values: &[Complex64], most: usize) -> Vec<Series> {
+    pub(super) fn series(&self, values: &[Complex64], most: usize) -> Vec<FourierSeries> {
         self.looks.iter().map(|look| transform(look, most, |m| values[usize::from(*m)])).collect()
     }
 }
 
 /// Coefficients −`most`…`most` of the samples `of(line)`, the middle of the line at 0.
-fn transform<T>(line: &[T], most: usize, of: impl Fn(&T) -> Complex64) -> Series {
+fn transform<T>(line: &[T], most: usize, of: impl Fn(&T) -> Complex64) -> FourierSeries {
     let n = line.len();
     let turn = std::f64::consts::TAU / n as f64;
     let waves: Vec<Complex64> = (0..n).map(|k| Complex64::cis(-turn * k as f64)).collect();
@@ -149,5 +153,5 @@ fn transform<T>(line: &[T], most: usize, of: impl Fn(&T) -> Complex64) -> Series
         sum * Complex64::cis(-std::f64::consts::TAU * m as f64 * start) / n as f64
     };
     let most = most as isize;
-    Series((-most..=most).map(coefficient).collect())
+    FourierSeries((-most..=most).map(coefficient).collect())
 }

@@ -3,19 +3,19 @@
 //! M. Born, E. Wolf, *Principles of Optics*, 7th ed., 1.5: the only order has Fresnel's
 //! coefficients.
 
-use super::{CrossGrating, CrossProfile, Lattice, MEDIA, Media, lean};
+use super::{CrossGrating, CrossGratingMedia, CrossProfile, Lattice, MEDIA, lean};
 use crate::{
     grating::positive,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::number("d1", "0.5", "um", "Period along axis 1"),
-    Param::number("d2", "0.5", "um", "Period along axis 2"),
-    Param::number("zeta", "0", "deg", "Angle from y to axis 2"),
+const OWN: &[Parameter] = &[
+    Parameter::number("d1", "0.5", "um", "Period along axis 1"),
+    Parameter::number("d2", "0.5", "um", "Period along axis 2"),
+    Parameter::number("zeta", "0", "deg", "Angle from y to axis 2"),
 ];
 
-/// How programs name, parameterize and build a [`Null`].
+/// How programs name, parameterize and build a [`NullGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Null_CrossGrating",
@@ -26,26 +26,26 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         params: &[MEDIA, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Null::read(node)?)),
+    build: |node| Ok(Box::new(NullGrating::read(node)?)),
 };
 
 /// A bare interface.
 #[derive(Clone, Debug)]
-pub struct Null {
-    media: Media,
+pub struct NullGrating {
+    media: CrossGratingMedia,
     lattice: Lattice,
 }
 
-impl Null {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl NullGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let (d1, d2) = (positive(node, "d1")?, positive(node, "d2")?);
         let lattice = Lattice { d1, d2, zeta: lean(node, "zeta")? };
-        Ok(Self { media: Media::read(node), lattice })
+        Ok(Self { media: CrossGratingMedia::read(node), lattice })
     }
 }
 
-impl CrossGrating for Null {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
+impl CrossGrating for NullGrating {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
         Ok(self.media.profile(lambda, self.lattice, Vec::new()))
     }
 }

@@ -4,19 +4,27 @@
 //!
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
-use super::{CrossGrating, CrossPattern, CrossProfile, CrossSlice, Lattice, MEDIA, Media, lean};
+use super::{
+    CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, Lattice, MEDIA, lean,
+};
 use crate::{
     grating::{Grating, positive},
-    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::number("d2", "0.5", "um", "Period along axis 2"),
-    Param::number("zeta", "0", "deg", "Angle from y to axis 2"),
-    Param::member("grating", Family::Grating, "Grating", "Single_Line_Grating", "The line grating"),
+const OWN: &[Parameter] = &[
+    Parameter::number("d2", "0.5", "um", "Period along axis 2"),
+    Parameter::number("zeta", "0", "deg", "Angle from y to axis 2"),
+    Parameter::member(
+        "grating",
+        Family::Grating,
+        "Grating",
+        "Single_Line_Grating",
+        "The line grating",
+    ),
 ];
 
-/// How programs name, parameterize and build a [`OneD`].
+/// How programs name, parameterize and build a [`LineCrossGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "OneD_CrossGrating",
@@ -27,21 +35,21 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         params: &[MEDIA, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(OneD::read(node)?)),
+    build: |node| Ok(Box::new(LineCrossGrating::read(node)?)),
 };
 
 /// A line grating.
-pub struct OneD {
-    media: Media,
+pub struct LineCrossGrating {
+    media: CrossGratingMedia,
     d2: f64,
     zeta: f64,
     grating: Box<dyn Grating>,
 }
 
-impl OneD {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl LineCrossGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
-            media: Media::read(node),
+            media: CrossGratingMedia::read(node),
             d2: positive(node, "d2")?,
             zeta: lean(node, "zeta")?,
             grating: node.member::<dyn Grating>("grating")?,
@@ -49,8 +57,8 @@ impl OneD {
     }
 }
 
-impl CrossGrating for OneD {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
+impl CrossGrating for LineCrossGrating {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
         let lines = self.grating.at(lambda).map_err(|error| error.inside("grating"))?;
         self.media.starts_with(lambda, "grating.medium_i", lines.above)?;
         self.media.ends_with(lambda, "grating.medium_t", lines.below)?;

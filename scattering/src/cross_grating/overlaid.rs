@@ -2,25 +2,25 @@
 //!
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
-use super::{CrossGrating, CrossPattern, CrossProfile, CrossSlice, MEDIA, Media, same};
+use super::{CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, MEDIA, same};
 use crate::{
-    grating::{Material, Pattern, finite, not_negative},
-    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+    grating::{GratingMaterial, LinePattern, finite, not_negative},
+    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const fn part(name: &'static str, doc: &'static str) -> Param {
-    Param::member(name, Family::CrossGrating, "CrossGrating", "OneD_CrossGrating", doc)
+const fn part(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::member(name, Family::CrossGrating, "CrossGrating", "OneD_CrossGrating", doc)
 }
 
-const OWN: &[Param] = &[
+const OWN: &[Parameter] = &[
     part("top", "The upper grating"),
     part("bottom", "The lower grating"),
-    Param::number("overlay1", "0", "um", "Shift of the upper grating along axis 1"),
-    Param::number("overlay2", "0", "um", "Shift of the upper grating along axis 2"),
-    Param::number("separation", "0", "um", "Distance between the two"),
+    Parameter::number("overlay1", "0", "um", "Shift of the upper grating along axis 1"),
+    Parameter::number("overlay2", "0", "um", "Shift of the upper grating along axis 2"),
+    Parameter::number("separation", "0", "um", "Distance between the two"),
 ];
 
-/// How programs name, parameterize and build an [`Overlaid`].
+/// How programs name, parameterize and build an [`OverlaidCrossGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Overlaid_CrossGrating",
@@ -31,22 +31,22 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         params: &[MEDIA, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Overlaid::read(node)?)),
+    build: |node| Ok(Box::new(OverlaidCrossGrating::read(node)?)),
 };
 
 /// Two crossed gratings, one over the other.
-pub struct Overlaid {
-    media: Media,
+pub struct OverlaidCrossGrating {
+    media: CrossGratingMedia,
     top: Box<dyn CrossGrating>,
     bottom: Box<dyn CrossGrating>,
     overlay: (f64, f64),
     separation: f64,
 }
 
-impl Overlaid {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl OverlaidCrossGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
-            media: Media::read(node),
+            media: CrossGratingMedia::read(node),
             top: node.member::<dyn CrossGrating>("top")?,
             bottom: node.member::<dyn CrossGrating>("bottom")?,
             overlay: (finite(node, "overlay1")?, finite(node, "overlay2")?),
@@ -55,20 +55,20 @@ impl Overlaid {
     }
 }
 
-impl CrossGrating for Overlaid {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
+impl CrossGrating for OverlaidCrossGrating {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
         let top = self.top.at(lambda).map_err(|error| error.inside("top"))?;
         let bottom = self.bottom.at(lambda).map_err(|error| error.inside("bottom"))?;
         let lattice = top.lattice;
         if lattice != bottom.lattice {
             let problem = "its periods or their angle differ from those of top";
-            return Err(ParamError::new("bottom", problem));
+            return Err(ParameterError::new("bottom", problem));
         }
         self.media.starts_with(lambda, "top.medium_i", top.above)?;
         same("bottom.medium_i", bottom.above, top.below)?;
         self.media.ends_with(lambda, "bottom.medium_t", bottom.below)?;
         let by = (self.overlay.0 / lattice.d1, self.overlay.1 / lattice.d2);
-        let between = Pattern::uniform(Material::from_index(top.below), lattice.d1);
+        let between = LinePattern::uniform(GratingMaterial::from_index(top.below), lattice.d1);
         let between = CrossSlice::new(self.separation, CrossPattern::Along1(between));
         let slices = top
             .slices

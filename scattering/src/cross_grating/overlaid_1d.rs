@@ -5,21 +5,23 @@
 //!
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
-use super::{CrossGrating, CrossPattern, CrossProfile, CrossSlice, Lattice, MEDIA, Media, same};
+use super::{
+    CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, Lattice, MEDIA, same,
+};
 use crate::{
-    grating::{Grating, Material, Pattern, not_negative},
-    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+    grating::{Grating, GratingMaterial, LinePattern, not_negative},
+    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const fn part(name: &'static str, doc: &'static str) -> Param {
-    Param::member(name, Family::Grating, "Grating", "Single_Line_Grating", doc)
+const fn part(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::member(name, Family::Grating, "Grating", "Single_Line_Grating", doc)
 }
 
-const OWN: &[Param] = &[
+const OWN: &[Parameter] = &[
     part("top", "The upper grating"),
     part("bottom", "The lower grating"),
-    Param::number("angle", "90", "deg", "Angle between the lines"),
-    Param::number("separation", "0", "um", "Distance between the two"),
+    Parameter::number("angle", "90", "deg", "Angle between the lines"),
+    Parameter::number("separation", "0", "um", "Distance between the two"),
 ];
 
 /// How programs name, parameterize and build an [`Overlaid1D`].
@@ -38,7 +40,7 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
 
 /// Two line gratings at an angle.
 pub struct Overlaid1D {
-    media: Media,
+    media: CrossGratingMedia,
     top: Box<dyn Grating>,
     bottom: Box<dyn Grating>,
     zeta: f64,
@@ -46,13 +48,13 @@ pub struct Overlaid1D {
 }
 
 impl Overlaid1D {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let angle = node.number("angle");
         if !(angle > 0.0 && angle < 180.0) {
-            return Err(ParamError::new("angle", format!("{angle} is not between 0 and 180")));
+            return Err(ParameterError::new("angle", format!("{angle} is not between 0 and 180")));
         }
         Ok(Self {
-            media: Media::read(node),
+            media: CrossGratingMedia::read(node),
             top: node.member::<dyn Grating>("top")?,
             bottom: node.member::<dyn Grating>("bottom")?,
             zeta: (90.0 - angle).to_radians(),
@@ -62,13 +64,13 @@ impl Overlaid1D {
 }
 
 impl CrossGrating for Overlaid1D {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
         let top = self.top.at(lambda).map_err(|error| error.inside("top"))?;
         let bottom = self.bottom.at(lambda).map_err(|error| error.inside("bottom"))?;
         self.media.starts_with(lambda, "top.medium_i", top.above)?;
         same("bottom.medium_i", bottom.above, top.below)?;
         self.media.ends_with(lambda, "bottom.medium_t", bottom.below)?;
-        let between = Pattern::uniform(Material::from_index(top.below), bottom.period);
+        let between = LinePattern::uniform(GratingMaterial::from_index(top.below), bottom.period);
         let between = CrossSlice::new(self.separation, CrossPattern::Along1(between));
         let lower = bottom
             .slices

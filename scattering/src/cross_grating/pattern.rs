@@ -18,13 +18,13 @@ use std::f64::consts::TAU;
 use faer::Scale;
 use num_complex::Complex64;
 
-use super::{CrossSlice, Grid};
+use super::{CrossSlice, PixelGrid};
 use crate::{
-    grating::{Material, Pattern},
+    grating::{GratingMaterial, LinePattern},
     rcw::{
-        Matrix,
-        layer::{Operators, Tensor},
-        toeplitz::{Series, inverse},
+        ComplexMatrix,
+        layer::{LayerOperators, MaterialTensor},
+        toeplitz::{FourierSeries, inverse},
     },
 };
 
@@ -32,23 +32,23 @@ use crate::{
 #[derive(Clone, Debug)]
 pub enum CrossPattern {
     /// Varies along axis 1 alone.
-    Along1(Pattern),
+    Along1(LinePattern),
     /// Varies along axis 2 alone.
-    Along2(Pattern),
+    Along2(LinePattern),
     /// Pixels.
-    Grid(Grid),
+    Grid(PixelGrid),
 }
 
 /// Which harmonics are kept: −`order1`…`order1` by −`order2`…`order2`, axis 2 running fastest.
 #[derive(Clone, Copy, Debug)]
-pub struct Truncation {
+pub struct HarmonicTruncation {
     /// Highest harmonic along axis 1.
     pub order1: usize,
     /// Highest harmonic along axis 2.
     pub order2: usize,
 }
 
-impl Truncation {
+impl HarmonicTruncation {
     /// Number of harmonics along each axis.
     fn sizes(&self) -> [usize; 2] {
         [2 * self.order1 + 1, 2 * self.order2 + 1]
@@ -62,32 +62,33 @@ impl Truncation {
 }
 
 /// A constant as three matrices, and the inverse of its normal part.
-struct Factors {
-    a: Matrix,
-    b: Matrix,
-    plain: Matrix,
-    normal_inverse: Matrix,
+struct TensorFactors {
+    a: ComplexMatrix,
+    b: ComplexMatrix,
+    plain: ComplexMatrix,
+    normal_inverse: ComplexMatrix,
 }
 
 impl CrossSlice {
     /// What the slice of `depth` (in 1/k₀) does to the harmonics, axis 2 leaning by `zeta`.
-    pub fn operators(&self, kept: Truncation, zeta: f64, depth: f64) -> Operators {
+    pub fn operators(&self, kept: HarmonicTruncation, zeta: f64, depth: f64) -> LayerOperators {
         let (epsilon, mu) = match &self.pattern {
             CrossPattern::Along1(pattern) => {
                 let line = pattern.operators(kept.order1, depth);
-                let spread = |m: &Matrix| spread_1(m, kept.sizes()[1]);
+                let spread = |m: &ComplexMatrix| spread_1(m, kept.sizes()[1]);
                 (along(&line.epsilon, spread, false), along(&line.mu, spread, false))
             }
             CrossPattern::Along2(pattern) => {
                 let line = pattern.operators(kept.order2, depth);
-                let spread = |m: &Matrix| spread_2(m, kept.sizes()[0]);
+                let spread = |m: &ComplexMatrix| spread_2(m, kept.sizes()[0]);
                 (along(&line.epsilon, spread, true), along(&line.mu, spread, true))
             }
             CrossPattern::Grid(grid) => {
                 (grid.factors(kept, |m| m.epsilon), grid.factors(kept, |m| m.mu))
             }
         };
-        let mut operators = Operators { depth, epsilon: epsilon.tensor(zeta), mu: mu.tensor(zeta) };
+        let mut operators =
+            LayerOperators { depth, epsilon: epsilon.tensor(zeta), mu: mu.tensor(zeta) };
         if self.shift != (0.0, 0.0) {
             self.shift(&mut operators.epsilon, kept);
             self.shift(&mut operators.mu, kept);
@@ -96,7 +97,7 @@ impl CrossSlice {
     }
 
     /// Moves a tensor sideways: c_{h−h'} gets the phase of the shift.
-    fn shift(&self, tensor: &mut Tensor, kept: Truncation) {
+    fn shift(&self, tensor: &mut MaterialTensor, kept: HarmonicTruncation) {
         let phases: Vec<Complex64> = kept
             .harmonics()
             .iter()
@@ -104,8 +105,10 @@ impl CrossSlice {
                 Complex64::cis(-TAU * (i as f64 * self.shift.0 + j as f64 * self.shift.1))
             })
             .collect();
-        let turn = |m: &Matrix| {
-            Matrix::from_fn(m.nrows(), m.ncols(), |a, b| phases[a] * m[(a, b)] * phases[b].conj())
+        let turn = |m: &ComplexMatrix| {
+            ComplexMatrix::from_fn(m.nrows(), m.ncols(), |a, b| {
+                phases[a] * m[(a, b)] * phases[b].conj()
+            })
         };
         tensor.xx = turn(&tensor.xx);
         tensor.xy = tensor.xy.as_ref().map(turn);
@@ -115,43 +118,43 @@ impl CrossSlice {
 }
 
 /// A line pattern's tensor in two dimensions; `second` if it varies along axis 2.
-fn along(tensor: &Tensor, spread: impl Fn(&Matrix) -> Matrix, second: bool) -> Factors {
+fn along(
+    tensor: &MaterialTensor,
+    spread: impl Fn(&ComplexMatrix) -> ComplexMatrix,
+    second: bool,
+) -> TensorFactors {
     let (across, lengthwise) = (spread(&tensor.xx), spread(&tensor.yy));
     let plain = lengthwise.clone();
     let (a, b) = if second { (lengthwise, across) } else { (across, lengthwise) };
-    Factors { a, b, plain, normal_inverse: spread(&tensor.zz_inverse) }
+    TensorFactors { a, b, plain, normal_inverse: spread(&tensor.zz_inverse) }
 }
 
 /// m ⊗ 1: harmonics of axis 2 keep to themselves.
-fn spread_1(m: &Matrix, n2: usize) -> Matrix {
+fn spread_1(m: &ComplexMatrix, n2: usize) -> ComplexMatrix {
     let n = m.nrows() * n2;
-    Matrix::from_fn(
-        n,
-        n,
-        |a, b| {
-            if a % n2 == b % n2 { m[(a / n2, b / n2)] } else { Complex64::ZERO }
-        },
-    )
+    ComplexMatrix::from_fn(n, n, |a, b| {
+        if a % n2 == b % n2 { m[(a / n2, b / n2)] } else { Complex64::ZERO }
+    })
 }
 
 /// 1 ⊗ m: harmonics of axis 1 keep to themselves.
-fn spread_2(m: &Matrix, n1: usize) -> Matrix {
+fn spread_2(m: &ComplexMatrix, n1: usize) -> ComplexMatrix {
     let n2 = m.nrows();
-    Matrix::from_fn(n1 * n2, n1 * n2, |a, b| {
+    ComplexMatrix::from_fn(n1 * n2, n1 * n2, |a, b| {
         if a / n2 == b / n2 { m[(a % n2, b % n2)] } else { Complex64::ZERO }
     })
 }
 
-impl Factors {
-    fn tensor(self, zeta: f64) -> Tensor {
+impl TensorFactors {
+    fn tensor(self, zeta: f64) -> MaterialTensor {
         let Self { a, b, plain, normal_inverse } = self;
         if zeta == 0.0 {
-            return Tensor { xx: a, xy: None, yy: b, zz_inverse: normal_inverse };
+            return MaterialTensor { xx: a, xy: None, yy: b, zz_inverse: normal_inverse };
         }
         let (s, c) = zeta.sin_cos();
-        let scaled = |m: &Matrix, x: f64| m * Scale(Complex64::from(x));
+        let scaled = |m: &ComplexMatrix, x: f64| m * Scale(Complex64::from(x));
         let difference = &plain - &a;
-        Tensor {
+        MaterialTensor {
             xx: scaled(&a, c * c) + scaled(&plain, s * s),
             xy: Some(scaled(&difference, s * c)),
             yy: b - scaled(&difference, s * s),
@@ -160,13 +163,17 @@ impl Factors {
     }
 }
 
-impl Grid {
-    fn factors(&self, kept: Truncation, of: impl Fn(&Material) -> [Complex64; 3]) -> Factors {
+impl PixelGrid {
+    fn factors(
+        &self,
+        kept: HarmonicTruncation,
+        of: impl Fn(&GratingMaterial) -> [Complex64; 3],
+    ) -> TensorFactors {
         let [n1, n2] = kept.sizes();
         let values: Vec<[Complex64; 3]> = self.materials.iter().map(&of).collect();
         if values.iter().all(|v| *v == [Complex64::ONE; 3]) {
-            let one = Matrix::identity(n1 * n2, n1 * n2);
-            return Factors {
+            let one = ComplexMatrix::identity(n1 * n2, n1 * n2);
+            return TensorFactors {
                 a: one.clone(),
                 b: one.clone(),
                 plain: one.clone(),
@@ -178,7 +185,7 @@ impl Grid {
 
         let rows = self.lines(0, 2 * kept.order2);
         let columns = self.lines(1, 2 * kept.order1);
-        let inverted = |series: Vec<Series>, n: usize| -> Vec<Matrix> {
+        let inverted = |series: Vec<FourierSeries>, n: usize| -> Vec<ComplexMatrix> {
             series.iter().map(|s| inverse(&s.matrix(n))).collect()
         };
         let along_rows = inverted(rows.series(&inverses(0), 2 * kept.order1), n1);
@@ -189,13 +196,13 @@ impl Grid {
             n1,
             n2,
         );
-        let toeplitz = |k: usize| -> Matrix {
+        let toeplitz = |k: usize| -> ComplexMatrix {
             let series = rows.series(&axis(k), 2 * kept.order1);
             assemble(n1, n2, &rows.where_, |look, i, i2| series[look].at(i as isize - i2 as isize))
         };
         let normal = toeplitz(2);
         let plain = if axis(0) == axis(2) { normal.clone() } else { toeplitz(0) };
-        Factors { a, b, plain, normal_inverse: inverse(&normal) }
+        TensorFactors { a, b, plain, normal_inverse: inverse(&normal) }
     }
 }
 
@@ -204,10 +211,10 @@ impl Grid {
 fn assemble(
     inner: usize,
     outer: usize,
-    where_: &[Series],
+    where_: &[FourierSeries],
     of: impl Fn(usize, usize, usize) -> Complex64,
-) -> Matrix {
-    let mut m = Matrix::zeros(inner * outer, inner * outer);
+) -> ComplexMatrix {
+    let mut m = ComplexMatrix::zeros(inner * outer, inner * outer);
     let last = outer as isize - 1;
     let mut by_difference = vec![Complex64::ZERO; 2 * outer - 1];
     for i in 0..inner {
@@ -230,7 +237,7 @@ fn assemble(
 }
 
 /// The matrix with the slow index j made the fast one.
-fn exchanged(m: &Matrix, n1: usize, n2: usize) -> Matrix {
+fn exchanged(m: &ComplexMatrix, n1: usize, n2: usize) -> ComplexMatrix {
     let at = |h: usize| (h % n2) * n1 + h / n2;
-    Matrix::from_fn(n1 * n2, n1 * n2, |a, b| m[(at(a), at(b))])
+    ComplexMatrix::from_fn(n1 * n2, n1 * n2, |a, b| m[(at(a), at(b))])
 }

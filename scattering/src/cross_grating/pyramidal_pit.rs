@@ -6,18 +6,18 @@
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
 use super::{
-    CrossGrating, CrossPattern, CrossProfile, CrossSlice, MEDIA, Media,
-    grid::{CELL, Cell},
+    CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, MEDIA,
+    grid::{CELL, UnitCell},
 };
 use crate::{
-    grating::{Material, levels, not_negative},
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    grating::{GratingMaterial, levels, not_negative},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::number("side", "0.05", "um", "Side of the opening"),
-    Param::number("depth", "0.05", "um", "Depth"),
-    Param::integer("nlevels", "10", "Number of slices"),
+const OWN: &[Parameter] = &[
+    Parameter::number("side", "0.05", "um", "Side of the opening"),
+    Parameter::number("depth", "0.05", "um", "Depth"),
+    Parameter::integer("nlevels", "10", "Number of slices"),
 ];
 
 /// How programs name, parameterize and build a [`PyramidalPit`].
@@ -37,18 +37,18 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
 /// Pyramidal pits.
 #[derive(Clone, Debug)]
 pub struct PyramidalPit {
-    media: Media,
-    cell: Cell,
+    media: CrossGratingMedia,
+    cell: UnitCell,
     side: f64,
     depth: f64,
     levels: usize,
 }
 
 impl PyramidalPit {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
-            media: Media::read(node),
-            cell: Cell::read(node)?,
+            media: CrossGratingMedia::read(node),
+            cell: UnitCell::read(node)?,
             side: not_negative(node, "side")?,
             depth: not_negative(node, "depth")?,
             levels: levels(node, "nlevels", 1)?,
@@ -57,9 +57,9 @@ impl PyramidalPit {
 }
 
 impl CrossGrating for PyramidalPit {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
         let media = [&self.media.below, &self.media.above];
-        let materials = media.map(|n| Material::from_index(n.at(lambda)));
+        let materials = media.map(|n| GratingMaterial::from_index(n.at(lambda)));
         let count = self.levels as f64;
         let slices = (0..self.levels).rev().map(|level| {
             let half = 0.5 * self.side * (level as f64 + 0.5) / count;

@@ -7,26 +7,26 @@
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
 use super::{
-    CrossGrating, CrossPattern, CrossProfile, CrossSlice, MEDIA, Media,
-    grid::{CELL, Cell},
+    CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, MEDIA,
+    grid::{CELL, UnitCell},
     lean,
 };
 use crate::{
-    grating::{Material, not_negative},
-    optics::Index,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    grating::{GratingMaterial, not_negative},
+    optics::RefractiveIndex,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::number("length1", "0.1", "um", "Side along x"),
-    Param::number("length2", "0.1", "um", "Side along the other direction"),
-    Param::number("zetaa", "0", "deg", "Angle from y to the second side"),
-    Param::number("thickness", "0.1", "um", "Height"),
-    Param::index("inside", "(1,0)", "Index inside"),
-    Param::index("outside", "(1.5,0)", "Index outside"),
+const OWN: &[Parameter] = &[
+    Parameter::number("length1", "0.1", "um", "Side along x"),
+    Parameter::number("length2", "0.1", "um", "Side along the other direction"),
+    Parameter::number("zetaa", "0", "deg", "Angle from y to the second side"),
+    Parameter::number("thickness", "0.1", "um", "Height"),
+    Parameter::index("inside", "(1,0)", "Index inside"),
+    Parameter::index("outside", "(1.5,0)", "Index outside"),
 ];
 
-/// How programs name, parameterize and build a [`Rectangle`].
+/// How programs name, parameterize and build a [`RectangleGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Rectangle_CrossGrating",
@@ -37,27 +37,27 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         params: &[MEDIA, CELL, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Rectangle::read(node)?)),
+    build: |node| Ok(Box::new(RectangleGrating::read(node)?)),
 };
 
 /// Rectangular holes or posts.
 #[derive(Clone, Debug)]
-pub struct Rectangle {
-    media: Media,
-    cell: Cell,
+pub struct RectangleGrating {
+    media: CrossGratingMedia,
+    cell: UnitCell,
     half: (f64, f64),
     lean: f64,
     thickness: f64,
-    inside: Index,
-    outside: Index,
+    inside: RefractiveIndex,
+    outside: RefractiveIndex,
 }
 
-impl Rectangle {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl RectangleGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let half = |name: &str| not_negative(node, name).map(|length| 0.5 * length);
         Ok(Self {
-            media: Media::read(node),
-            cell: Cell::read(node)?,
+            media: CrossGratingMedia::read(node),
+            cell: UnitCell::read(node)?,
             half: (half("length1")?, half("length2")?),
             lean: lean(node, "zetaa")?,
             thickness: not_negative(node, "thickness")?,
@@ -67,9 +67,10 @@ impl Rectangle {
     }
 }
 
-impl CrossGrating for Rectangle {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
-        let materials = [&self.outside, &self.inside].map(|n| Material::from_index(n.at(lambda)));
+impl CrossGrating for RectangleGrating {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
+        let materials =
+            [&self.outside, &self.inside].map(|n| GratingMaterial::from_index(n.at(lambda)));
         let (tan, cos) = (self.lean.tan(), self.lean.cos());
         let grid = self.cell.paint(materials.to_vec(), |x, y| {
             u8::from((x - y * tan).abs() < self.half.0 && (y / cos).abs() < self.half.1)

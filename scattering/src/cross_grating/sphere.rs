@@ -7,25 +7,25 @@
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
 use super::{
-    CrossGrating, CrossPattern, CrossProfile, CrossSlice, MEDIA, Media,
-    grid::{CELL, Cell},
+    CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, MEDIA,
+    grid::{CELL, UnitCell},
 };
 use crate::{
-    grating::{Material, Pattern, levels, not_negative, positive},
-    optics::Index,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    grating::{GratingMaterial, LinePattern, levels, not_negative, positive},
+    optics::RefractiveIndex,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::number("diameter", "0.05", "um", "Diameter of the spheres"),
-    Param::number("above", "0.05", "um", "Thickness of the layer above the spheres"),
-    Param::number("below", "0.05", "um", "Thickness of the layer below the spheres"),
-    Param::integer("nlevels", "7", "Number of slices of the spheres"),
-    Param::index("sphere", "(1,0)", "Index of the spheres"),
-    Param::index("surrounding", "(1.5,0)", "Index around them"),
+const OWN: &[Parameter] = &[
+    Parameter::number("diameter", "0.05", "um", "Diameter of the spheres"),
+    Parameter::number("above", "0.05", "um", "Thickness of the layer above the spheres"),
+    Parameter::number("below", "0.05", "um", "Thickness of the layer below the spheres"),
+    Parameter::integer("nlevels", "7", "Number of slices of the spheres"),
+    Parameter::index("sphere", "(1,0)", "Index of the spheres"),
+    Parameter::index("surrounding", "(1.5,0)", "Index around them"),
 ];
 
-/// How programs name, parameterize and build a [`Sphere`].
+/// How programs name, parameterize and build a [`SphereGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Sphere_CrossGrating",
@@ -36,27 +36,27 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         params: &[MEDIA, CELL, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Sphere::read(node)?)),
+    build: |node| Ok(Box::new(SphereGrating::read(node)?)),
 };
 
 /// Spheres in a layer.
 #[derive(Clone, Debug)]
-pub struct Sphere {
-    media: Media,
-    cell: Cell,
+pub struct SphereGrating {
+    media: CrossGratingMedia,
+    cell: UnitCell,
     diameter: f64,
     above: f64,
     below: f64,
     levels: usize,
-    sphere: Index,
-    surrounding: Index,
+    sphere: RefractiveIndex,
+    surrounding: RefractiveIndex,
 }
 
-impl Sphere {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl SphereGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
-            media: Media::read(node),
-            cell: Cell::read(node)?,
+            media: CrossGratingMedia::read(node),
+            cell: UnitCell::read(node)?,
             diameter: positive(node, "diameter")?,
             above: not_negative(node, "above")?,
             below: not_negative(node, "below")?,
@@ -77,12 +77,12 @@ impl Sphere {
     }
 }
 
-impl CrossGrating for Sphere {
-    fn at(&self, lambda: f64) -> Result<CrossProfile, ParamError> {
-        let around = Material::from_index(self.surrounding.at(lambda));
-        let materials = vec![around, Material::from_index(self.sphere.at(lambda))];
+impl CrossGrating for SphereGrating {
+    fn at(&self, lambda: f64) -> Result<CrossProfile, ParameterError> {
+        let around = GratingMaterial::from_index(self.surrounding.at(lambda));
+        let materials = vec![around, GratingMaterial::from_index(self.sphere.at(lambda))];
         let plain = |thickness: f64| {
-            let pattern = Pattern::uniform(around, self.cell.lattice.d1);
+            let pattern = LinePattern::uniform(around, self.cell.lattice.d1);
             (thickness > 0.0).then(|| CrossSlice::new(thickness, CrossPattern::Along1(pattern)))
         };
         let spheres = (0..self.levels).map(|level| {
@@ -97,15 +97,15 @@ impl CrossGrating for Sphere {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Mode, Node, Value, cross_grating::CrossGrating, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, cross_grating::CrossGrating, spec};
 
     #[test]
     fn slices_of_the_spheres_are_as_high_as_the_spheres() {
         for levels in [1, 2, 7, 8] {
-            let node = Node::with_defaults(&super::SPEC.class, Mode::Sound)
-                .with("nlevels", Value::Integer(levels))
-                .and_then(|node| node.with("grid1", Value::Integer(8)))
-                .and_then(|node| node.with("grid2", Value::Integer(8)))
+            let node = ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)
+                .with("nlevels", ParameterValue::Integer(levels))
+                .and_then(|node| node.with("grid1", ParameterValue::Integer(8)))
+                .and_then(|node| node.with("grid2", ParameterValue::Integer(8)))
                 .unwrap();
             let profile = spec::build::<dyn CrossGrating>(&node).unwrap().at(0.5).unwrap();
             let height: f64 = profile.slices.iter().map(|slice| slice.thickness).sum();

@@ -1,7 +1,7 @@
 //! Mixture of two densities: p = f p_A + (1 − f) p_B.
 
 use super::Distribution;
-use crate::spec::{Class, Family, Laws, Param, ParamError, Spec};
+use crate::spec::{Class, Family, Laws, Parameter, ParameterError, Spec};
 
 /// How programs name, parameterize and build a [`Bimodal`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
@@ -14,14 +14,14 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         params: &[&[
             part("distributionA", "First distribution"),
             part("distributionB", "Second distribution"),
-            Param::number("fractionA", "0.5", "1", "Fraction f of the first, 0 to 1"),
+            Parameter::number("fractionA", "0.5", "1", "Fraction f of the first, 0 to 1"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let fraction = node.number("fractionA");
         if !(0.0..=1.0).contains(&fraction) {
-            return Err(ParamError::new("fractionA", format!("{fraction} is not from 0 to 1")));
+            return Err(ParameterError::new("fractionA", format!("{fraction} is not from 0 to 1")));
         }
         Ok(Box::new(Bimodal {
             a: node.member::<dyn Distribution>("distributionA")?,
@@ -31,8 +31,8 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
     },
 };
 
-const fn part(name: &'static str, doc: &'static str) -> Param {
-    Param::member(name, Family::Distribution, "Distribution", "Log_Normal_Distribution", doc)
+const fn part(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::member(name, Family::Distribution, "Distribution", "Log_Normal_Distribution", doc)
 }
 
 /// A mixture of two distributions.

@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use super::{Distribution, positive};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, Spec};
 
 /// How programs name, parameterize and build a [`LogNormal`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
@@ -20,8 +20,8 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         equation: "p = exp(-(ln(d/median))^2/(2 sigma^2))/(d sigma sqrt(2 pi))",
         source: "aitchison-brown-1957",
         params: &[&[
-            Param::number("sigma", "1", "1", "Standard deviation of ln d"),
-            Param::number("median", "10", "um", "Median diameter"),
+            Parameter::number("sigma", "1", "1", "Standard deviation of ln d"),
+            Parameter::number("median", "10", "um", "Median diameter"),
         ]],
         laws: Laws::NONE,
     },

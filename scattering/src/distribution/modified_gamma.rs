@@ -10,7 +10,7 @@
 use super::{Distribution, positive};
 use crate::{
     Defect,
-    spec::{Class, Laws, Param, ParamError, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
 /// How programs name, parameterize and build a [`ModifiedGamma`] distribution.
@@ -22,16 +22,16 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         equation: "p = gamma Lambda^((1+mu)/gamma)/(2 Gamma((1+mu)/gamma)) r^mu exp(-Lambda r^gamma), r = d/2",
         source: "deirmendjian-1969",
         params: &[&[
-            Param::number("mu", "8", "1", "Exponent of the radius, above -1"),
-            Param::number("Lambda", "0.0417", "um^-gamma", "Strength of the exponential fall"),
-            Param::number("gamma", "3", "1", "Exponent of the radius in the exponential"),
+            Parameter::number("mu", "8", "1", "Exponent of the radius, above -1"),
+            Parameter::number("Lambda", "0.0417", "um^-gamma", "Strength of the exponential fall"),
+            Parameter::number("gamma", "3", "1", "Exponent of the radius in the exponential"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let mu = node.number("mu");
         if !(mu > -1.0 && mu.is_finite()) {
-            return Err(ParamError::new("mu", format!("{mu} is not above -1")));
+            return Err(ParameterError::new("mu", format!("{mu} is not above -1")));
         }
         let (lambda, gamma) = (positive(node, "Lambda")?, positive(node, "gamma")?);
         let order = (1.0 + mu) / gamma;

@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use super::{Distribution, positive};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, Spec};
 
 /// How programs name, parameterize and build a [`Normal`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
@@ -20,8 +20,8 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         equation: "p = exp(-(d-mean)^2/(2 sigma^2))/(sigma sqrt(2 pi))",
         source: "aitchison-brown-1957",
         params: &[&[
-            Param::number("mean", "10", "um", "Mean diameter"),
-            Param::number("sigma", "5", "um", "Standard deviation of the diameter"),
+            Parameter::number("mean", "10", "um", "Mean diameter"),
+            Parameter::number("sigma", "5", "um", "Standard deviation of the diameter"),
         ]],
         laws: Laws::NONE,
     },

@@ -7,7 +7,7 @@
 //! W. Weibull, J. Appl. Mech. 18, 293 (1951).
 
 use super::{Distribution, positive};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, Spec};
 
 /// How programs name, parameterize and build a [`Weibull`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
@@ -18,8 +18,8 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         equation: "p = (e/s)(d/s)^(e-1) exp(-(d/s)^e)",
         source: "weibull-1951",
         params: &[&[
-            Param::number("scale", "10", "um", "Diameter s that a fraction 1-1/e stays below"),
-            Param::number("exponent", "4", "1", "Exponent e"),
+            Parameter::number("scale", "10", "um", "Diameter s that a fraction 1-1/e stays below"),
+            Parameter::number("exponent", "4", "1", "Exponent e"),
         ]],
         laws: Laws::NONE,
     },

@@ -15,21 +15,22 @@
 //! for profiles as stacks of lamellar slices.
 
 use super::{
-    COMMON, Common, Grating, Material, Pattern, Profile, Slice, levels, not_negative, positive,
+    COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice, levels,
+    not_negative, positive,
 };
 use crate::{
-    optics::Index,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    optics::RefractiveIndex,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::index("material", "(4.05,0.05)", "Index of the line"),
-    Param::number("height", "0.1", "um", "Height of the line"),
-    Param::number("width", "0.1", "um", "Width of the line at its foot, without the arcs"),
-    Param::number("sidewall", "88", "deg", "Angle of the sidewall, up to 90"),
-    Param::number("radiusb", "0.01", "um", "Radius of the arcs at the foot"),
-    Param::number("radiust", "0.001", "um", "Radius of the arcs at the top"),
-    Param::integer("nlevels", "10", "Number of slices"),
+const OWN: &[Parameter] = &[
+    Parameter::index("material", "(4.05,0.05)", "Index of the line"),
+    Parameter::number("height", "0.1", "um", "Height of the line"),
+    Parameter::number("width", "0.1", "um", "Width of the line at its foot, without the arcs"),
+    Parameter::number("sidewall", "88", "deg", "Angle of the sidewall, up to 90"),
+    Parameter::number("radiusb", "0.01", "um", "Radius of the arcs at the foot"),
+    Parameter::number("radiust", "0.001", "um", "Radius of the arcs at the top"),
+    Parameter::integer("nlevels", "10", "Number of slices"),
 ];
 
 /// How programs name, parameterize and build a [`CornerRounded`].
@@ -49,23 +50,23 @@ pub const SPEC: Spec<dyn Grating> = Spec {
 /// A line with rounded corners.
 #[derive(Clone, Debug)]
 pub struct CornerRounded {
-    common: Common,
-    material: Index,
+    common: GratingCommon,
+    material: RefractiveIndex,
     /// Half width and thickness of every level, the topmost first.
     levels: Vec<(f64, f64)>,
 }
 
 impl CornerRounded {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
-        let outline = Outline::read(node, common.period)?;
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = GratingCommon::read(node)?;
+        let outline = HalfProfile::read(node, common.period)?;
         let levels = outline.levels(levels(node, "nlevels", 2)?);
         Ok(Self { common, material: node.index("material").clone(), levels })
     }
 }
 
 /// The half profile of the line.
-struct Outline {
+struct HalfProfile {
     height: f64,
     top_radius: f64,
     foot_radius: f64,
@@ -80,12 +81,12 @@ struct Outline {
     foot_rise: f64,
 }
 
-impl Outline {
-    fn read(node: &Node, period: f64) -> Result<Self, ParamError> {
+impl HalfProfile {
+    fn read(node: &ParameterNode, period: f64) -> Result<Self, ParameterError> {
         let sidewall = node.number("sidewall");
         if !(sidewall > 0.0 && sidewall <= 90.0) {
             let problem = format!("{sidewall} is not above 0 and up to 90");
-            return Err(ParamError::new("sidewall", problem));
+            return Err(ParameterError::new("sidewall", problem));
         }
         let (sin, cos) = sidewall.to_radians().sin_cos();
         let (tan, cot) = (sin / cos, cos / sin);
@@ -95,13 +96,13 @@ impl Outline {
         let wall = (height - (rt + rb) * (1.0 - cos)) * cot;
         let flat = 0.5 * width - wall - arc - foot_rise;
         if wall < 0.0 {
-            return Err(ParamError::new("height", "the arcs are higher than the line"));
+            return Err(ParameterError::new("height", "the arcs are higher than the line"));
         }
         if flat < 0.0 {
-            return Err(ParamError::new("width", "sidewalls and arcs are wider than the line"));
+            return Err(ParameterError::new("width", "sidewalls and arcs are wider than the line"));
         }
         if flat + arc + wall + foot > 0.5 * period {
-            return Err(ParamError::new(
+            return Err(ParameterError::new(
                 "period",
                 "the line with its arcs is wider than the period",
             ));
@@ -141,12 +142,12 @@ impl Outline {
 }
 
 impl Grating for CornerRounded {
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
-        let inside = Material::from_index(self.material.at(lambda));
-        let outside = Material::from_index(self.common.above.at(lambda));
-        let slices = self.levels.iter().map(|&(half, thickness)| Slice {
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError> {
+        let inside = GratingMaterial::from_index(self.material.at(lambda));
+        let outside = GratingMaterial::from_index(self.common.above.at(lambda));
+        let slices = self.levels.iter().map(|&(half, thickness)| LineSlice {
             thickness,
-            pattern: Pattern::line(-half, half, self.common.period, inside, outside),
+            pattern: LinePattern::line(-half, half, self.common.period, inside, outside),
         });
         Ok(self.common.profile(lambda, slices))
     }

@@ -7,20 +7,20 @@
 
 use num_complex::Complex64;
 
-use super::{COMMON, Common, Grating, Material, Pattern, Profile, Slice};
+use super::{COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice};
 use crate::{
-    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
     stack::Stack,
 };
 
-const fn stack(name: &'static str, doc: &'static str) -> Param {
-    Param::member(name, Family::Stack, "StackModel", "No_StackModel", doc)
+const fn stack(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::member(name, Family::Stack, "StackModel", "No_StackModel", doc)
 }
 
 const NAMES: [&str; 6] =
     ["stackepsx", "stackepsy", "stackepsz", "stackmux", "stackmuy", "stackmuz"];
 
-const OWN: &[Param] = &[
+const OWN: &[Parameter] = &[
     stack("stackepsx", "Films with the index along x"),
     stack("stackepsy", "The same films with the index along y; empty: as along x"),
     stack("stackepsz", "The same films with the index along z; empty: as along x"),
@@ -46,13 +46,13 @@ pub const SPEC: Spec<dyn Grating> = Spec {
 /// Films without structure.
 #[derive(Clone, Debug)]
 pub struct DielectricStack {
-    common: Common,
+    common: GratingCommon,
     /// In the order of [`NAMES`].
     stacks: [Stack; 6],
 }
 
 impl DielectricStack {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let mut stacks: [Stack; 6] = Default::default();
         for (stack, name) in stacks.iter_mut().zip(NAMES) {
             *stack = *node.member::<Stack>(name)?;
@@ -63,10 +63,10 @@ impl DielectricStack {
         for (stack, name) in stacks.iter().zip(NAMES) {
             if !stack.films.is_empty() && thicknesses(stack) != first {
                 let problem = "number or thickness of the films differ from stackepsx";
-                return Err(ParamError::new(name, problem));
+                return Err(ParameterError::new(name, problem));
             }
         }
-        Ok(Self { common: Common::read(node)?, stacks })
+        Ok(Self { common: GratingCommon::read(node)?, stacks })
     }
 
     /// Squares of the indices of film `k` along x, y, z from three stacks.
@@ -78,15 +78,15 @@ impl DielectricStack {
 }
 
 impl Grating for DielectricStack {
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError> {
         let films = self.stacks[0].films.iter().enumerate().rev();
         let slices = films.map(|(k, film)| {
-            let material = Material {
+            let material = GratingMaterial {
                 epsilon: Self::squares(&self.stacks[..3], k, lambda),
                 mu: Self::squares(&self.stacks[3..], k, lambda),
             };
-            let pattern = Pattern::uniform(material, self.common.period);
-            Slice { thickness: film.thickness, pattern }
+            let pattern = LinePattern::uniform(material, self.common.period);
+            LineSlice { thickness: film.thickness, pattern }
         });
         Ok(self.common.profile(lambda, slices))
     }

@@ -10,35 +10,37 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use super::{COMMON, Common, Grating, Material, Pattern, Profile, Slice, levels};
-use crate::spec::{Class, Kind, Laws, Node, Param, ParamError, Spec};
+use super::{
+    COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice, levels,
+};
+use crate::spec::{Class, Laws, Parameter, ParameterError, ParameterKind, ParameterNode, Spec};
 
 pub(crate) mod description;
 mod expression;
 
-use description::{Description, Surroundings};
+use description::{DescriptionContext, GratingDescription};
 
 /// The description file of a drawn grating.
-pub(crate) const FILE: &[Param] = &[
-    Param {
+pub(crate) const FILE: &[Parameter] = &[
+    Parameter {
         name: "filename",
-        kind: Kind::File,
+        kind: ParameterKind::File,
         default: "",
         unit: "",
         doc: "File with the description",
     },
-    Param {
+    Parameter {
         name: "pstring",
-        kind: Kind::Text,
+        kind: ParameterKind::Text,
         default: "",
         unit: "",
         doc: "Values of the file's PARAMETERS, (v1,v2,...)",
     },
 ];
 
-const OWN: &[Param] = &[Param::integer("nlayers", "20", "Number of slices, about")];
+const OWN: &[Parameter] = &[Parameter::integer("nlayers", "20", "Number of slices, about")];
 
-/// How programs name, parameterize and build a [`Generic`].
+/// How programs name, parameterize and build a [`GenericGrating`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Generic_Grating",
@@ -49,22 +51,22 @@ pub const SPEC: Spec<dyn Grating> = Spec {
         params: &[COMMON, FILE, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Generic::read(node)?)),
+    build: |node| Ok(Box::new(GenericGrating::read(node)?)),
 };
 
 /// A grating from a drawing.
 #[derive(Clone, Debug)]
-pub struct Generic {
-    common: Common,
+pub struct GenericGrating {
+    common: GratingCommon,
     text: Arc<str>,
     values: Arc<str>,
     layers: usize,
 }
 
-impl Generic {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl GenericGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         Ok(Self {
-            common: Common::read(node)?,
+            common: GratingCommon::read(node)?,
             text: node.text("filename").into(),
             values: node.text("pstring").into(),
             layers: levels(node, "nlayers", 1)?,
@@ -72,19 +74,19 @@ impl Generic {
     }
 }
 
-impl Grating for Generic {
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
-        let surroundings = Surroundings {
+impl Grating for GenericGrating {
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError> {
+        let surroundings = DescriptionContext {
             period: self.common.period,
             lambda,
             above: self.common.above.at(lambda),
             below: self.common.below.at(lambda),
         };
-        let at_file = |problem: String| ParamError::new("filename", problem);
-        let description = Description::read(&self.text, &self.values, &surroundings)?;
-        let drawing = Drawing::of(&description).map_err(at_file)?;
+        let at_file = |problem: String| ParameterError::new("filename", problem);
+        let description = GratingDescription::read(&self.text, &self.values, &surroundings)?;
+        let drawing = LineDrawing::of(&description).map_err(at_file)?;
         let slices = drawing.slices(self.layers).map_err(at_file)?;
-        let common = Common { period: drawing.right - drawing.left, ..self.common.clone() };
+        let common = GratingCommon { period: drawing.right - drawing.left, ..self.common.clone() };
         Ok(common.profile(lambda, slices))
     }
 }
@@ -94,8 +96,8 @@ struct Boundary {
     start: [f64; 2],
     end: [f64; 2],
     /// Material on the left going from start to end: −x of a steep one, above a level one.
-    left: Material,
-    right: Material,
+    left: GratingMaterial,
+    right: GratingMaterial,
 }
 
 impl Boundary {
@@ -106,7 +108,7 @@ impl Boundary {
     }
 
     /// y at the place `x`, and the material above there.
-    fn y_at(&self, x: f64) -> Option<(f64, Material)> {
+    fn y_at(&self, x: f64) -> Option<(f64, GratingMaterial)> {
         let ([x0, y0], [x1, y1]) = (self.start, self.end);
         let above = if x1 > x0 { self.left } else { self.right };
         ((x0 < x && x < x1) || (x1 < x && x < x0))
@@ -114,7 +116,7 @@ impl Boundary {
     }
 }
 
-struct Drawing {
+struct LineDrawing {
     boundaries: Vec<Boundary>,
     left: f64,
     right: f64,
@@ -122,8 +124,8 @@ struct Drawing {
     heights: Vec<f64>,
 }
 
-impl Drawing {
-    fn of(description: &Description) -> Result<Self, String> {
+impl LineDrawing {
+    fn of(description: &GratingDescription) -> Result<Self, String> {
         let points = description.vertices::<2>()?;
         let boundaries = description
             .lines("BOUNDARIES")
@@ -147,14 +149,14 @@ impl Drawing {
     }
 
     /// All slices, the topmost first.
-    fn slices(&self, layers: usize) -> Result<Vec<Slice>, String> {
+    fn slices(&self, layers: usize) -> Result<Vec<LineSlice>, String> {
         let parts = shares(&self.heights, layers, |low, high| self.run(low, high));
         let mut slices = Vec::new();
         for (low, high, count) in parts.into_iter().rev() {
             let thickness = (high - low) / count as f64;
             for k in (0..count).rev() {
                 let pattern = self.pattern(low + (k as f64 + 0.5) * thickness)?;
-                slices.push(Slice { thickness, pattern });
+                slices.push(LineSlice { thickness, pattern });
             }
         }
         Ok(slices)
@@ -171,13 +173,13 @@ impl Drawing {
     }
 
     /// The materials along x at the height `y`.
-    fn pattern(&self, y: f64) -> Result<Pattern, String> {
+    fn pattern(&self, y: f64) -> Result<LinePattern, String> {
         let mut crossings: Vec<(f64, &Boundary)> =
             self.boundaries.iter().filter_map(|b| Some((b.x_at(y)?, b))).collect();
         crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
         let period = self.right - self.left;
         let Some(&(first, _)) = crossings.first() else {
-            return Ok(Pattern::uniform(self.below(y)?, period));
+            return Ok(LinePattern::uniform(self.below(y)?, period));
         };
         let next = crossings.iter().cycle().skip(1);
         for ((x, here), (_, there)) in crossings.iter().zip(next) {
@@ -186,11 +188,11 @@ impl Drawing {
             }
         }
         let edges = crossings.iter().map(|c| c.0).chain([first + period]).collect();
-        Ok(Pattern::Bands { edges, materials: crossings.iter().map(|c| c.1.right).collect() })
+        Ok(LinePattern::Bands { edges, materials: crossings.iter().map(|c| c.1.right).collect() })
     }
 
     /// The material at the height `y` where no boundary crosses it: that above the next one below.
-    fn below(&self, y: f64) -> Result<Material, String> {
+    fn below(&self, y: f64) -> Result<GratingMaterial, String> {
         // Off the middle, where vertices are likely to be.
         let x = self.left + 0.381_966 * (self.right - self.left);
         self.boundaries
@@ -221,7 +223,7 @@ pub(crate) fn shares(
 
 fn boundary(
     line: &str,
-    description: &Description,
+    description: &GratingDescription,
     points: &BTreeMap<String, [f64; 2]>,
 ) -> Result<Boundary, String> {
     let words: Vec<&str> = line.split_whitespace().collect();

@@ -5,21 +5,24 @@
 //!
 //! M. G. Moharam, D. A. Pommet, E. B. Grann, T. K. Gaylord, J. Opt. Soc. Am. A 12, 1077 (1995).
 
-use super::{COMMON, Common, Grating, Material, Pattern, Profile, Slice, finite, not_negative};
-use crate::spec::{Class, Family, Laws, Node, Param, ParamError, Spec};
+use super::{
+    COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice, finite,
+    not_negative,
+};
+use crate::spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec};
 
-const fn part(name: &'static str, doc: &'static str) -> Param {
-    Param::member(name, Family::Grating, "Grating", "Single_Line_Grating", doc)
+const fn part(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::member(name, Family::Grating, "Grating", "Single_Line_Grating", doc)
 }
 
-const OWN: &[Param] = &[
+const OWN: &[Parameter] = &[
     part("top", "The upper grating"),
     part("bottom", "The lower grating"),
-    Param::number("overlay", "0", "um", "Shift of the upper grating along x"),
-    Param::number("separation", "0", "um", "Distance between the two"),
+    Parameter::number("overlay", "0", "um", "Shift of the upper grating along x"),
+    Parameter::number("separation", "0", "um", "Distance between the two"),
 ];
 
-/// How programs name, parameterize and build an [`Overlaid`].
+/// How programs name, parameterize and build an [`OverlaidGrating`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Overlaid_Grating",
@@ -30,21 +33,21 @@ pub const SPEC: Spec<dyn Grating> = Spec {
         params: &[COMMON, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Overlaid::read(node)?)),
+    build: |node| Ok(Box::new(OverlaidGrating::read(node)?)),
 };
 
 /// Two gratings, one over the other.
-pub struct Overlaid {
-    common: Common,
+pub struct OverlaidGrating {
+    common: GratingCommon,
     top: Box<dyn Grating>,
     bottom: Box<dyn Grating>,
     overlay: f64,
     separation: f64,
 }
 
-impl Overlaid {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+impl OverlaidGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = GratingCommon::read(node)?;
         Ok(Self {
             top: node.member::<dyn Grating>("top")?,
             bottom: node.member::<dyn Grating>("bottom")?,
@@ -56,15 +59,19 @@ impl Overlaid {
 }
 
 /// An error at `name` unless what stands there is the same.
-fn same<T: PartialEq + std::fmt::Display>(name: &str, this: T, other: T) -> Result<(), ParamError> {
+fn same<T: PartialEq + std::fmt::Display>(
+    name: &str,
+    this: T,
+    other: T,
+) -> Result<(), ParameterError> {
     if this == other {
         return Ok(());
     }
-    Err(ParamError::new(name, format!("{this} differs from its neighbour, {other}")))
+    Err(ParameterError::new(name, format!("{this} differs from its neighbour, {other}")))
 }
 
-impl Grating for Overlaid {
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+impl Grating for OverlaidGrating {
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError> {
         let period = self.common.period;
         let top = self.top.at(lambda).map_err(|error| error.inside("top"))?;
         let bottom = self.bottom.at(lambda).map_err(|error| error.inside("bottom"))?;
@@ -73,11 +80,11 @@ impl Grating for Overlaid {
         same("top.medium_i", top.above, self.common.above.at(lambda))?;
         same("bottom.medium_i", bottom.above, top.below)?;
         same("bottom.medium_t", bottom.below, self.common.below.at(lambda))?;
-        let between = Slice {
+        let between = LineSlice {
             thickness: self.separation,
-            pattern: Pattern::uniform(Material::from_index(top.below), period),
+            pattern: LinePattern::uniform(GratingMaterial::from_index(top.below), period),
         };
-        let upper = top.slices.iter().map(|slice| Slice {
+        let upper = top.slices.iter().map(|slice| LineSlice {
             thickness: slice.thickness,
             pattern: slice.pattern.shifted(self.overlay),
         });

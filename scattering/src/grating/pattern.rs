@@ -5,20 +5,20 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use crate::rcw::{
-    layer::{Operators, Tensor},
-    toeplitz::{Series, inverse},
+    layer::{LayerOperators, MaterialTensor},
+    toeplitz::{FourierSeries, inverse},
 };
 
 /// Permittivity and permeability along x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
+pub struct GratingMaterial {
     /// ε_x, ε_y, ε_z.
     pub epsilon: [Complex64; 3],
     /// μ_x, μ_y, μ_z.
     pub mu: [Complex64; 3],
 }
 
-impl Material {
+impl GratingMaterial {
     /// The isotropic, non-magnetic material of this index.
     pub fn from_index(n: Complex64) -> Self {
         Self { epsilon: [n * n; 3], mu: [Complex64::ONE; 3] }
@@ -27,13 +27,13 @@ impl Material {
 
 /// The material as a function of x.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Pattern {
+pub enum LinePattern {
     /// `materials[b]` between `edges[b]` and `edges[b + 1]`, µm; the edges span one period.
     Bands {
         /// Ends of the bands, ascending, one more than materials.
         edges: Vec<f64>,
         /// Materials.
-        materials: Vec<Material>,
+        materials: Vec<GratingMaterial>,
     },
     /// ε = mean + swing cos(2πx/period + phase).
     Cosine {
@@ -48,14 +48,20 @@ pub enum Pattern {
     },
 }
 
-impl Pattern {
+impl LinePattern {
     /// One material everywhere.
-    pub fn uniform(material: Material, period: f64) -> Self {
+    pub fn uniform(material: GratingMaterial, period: f64) -> Self {
         Self::Bands { edges: vec![0.0, period], materials: vec![material] }
     }
 
     /// A line of `inside` from `start` to `end`, `outside` elsewhere.
-    pub fn line(start: f64, end: f64, period: f64, inside: Material, outside: Material) -> Self {
+    pub fn line(
+        start: f64,
+        end: f64,
+        period: f64,
+        inside: GratingMaterial,
+        outside: GratingMaterial,
+    ) -> Self {
         let width = end - start;
         if width <= 0.0 || inside == outside {
             Self::uniform(outside, period)
@@ -88,8 +94,8 @@ impl Pattern {
     }
 
     /// What it does to fields of the harmonics −`order`…`order`, in a slice of `depth` (in 1/k₀).
-    pub fn operators(&self, order: usize, depth: f64) -> Operators {
-        Operators {
+    pub fn operators(&self, order: usize, depth: f64) -> LayerOperators {
+        LayerOperators {
             depth,
             epsilon: self.tensor(order, |m| m.epsilon),
             mu: self.tensor(order, |m| m.mu),
@@ -98,12 +104,16 @@ impl Pattern {
 
     /// Li's rules: across the lines (x) the inverse of the series of the inverse, along them (y)
     /// the series itself, and for the normal field the inverse of the series.
-    fn tensor(&self, order: usize, of: impl Fn(&Material) -> [Complex64; 3]) -> Tensor {
+    fn tensor(
+        &self,
+        order: usize,
+        of: impl Fn(&GratingMaterial) -> [Complex64; 3],
+    ) -> MaterialTensor {
         let n = 2 * order + 1;
         if let Self::Bands { materials, .. } = self
             && materials.iter().all(|m| of(m) == [Complex64::ONE; 3])
         {
-            return Tensor::vacuum(n);
+            return MaterialTensor::vacuum(n);
         }
         let (straight, reciprocal) = match self {
             Self::Bands { .. } => {
@@ -113,8 +123,8 @@ impl Pattern {
                 ([series(1, 1), series(2, 1)], series(0, -1))
             }
             Self::Cosine { mean, swing, phase, .. } => {
-                if of(&Material::from_index(*mean)) == [Complex64::ONE; 3] {
-                    return Tensor::vacuum(n);
+                if of(&GratingMaterial::from_index(*mean)) == [Complex64::ONE; 3] {
+                    return MaterialTensor::vacuum(n);
                 }
                 let series = cosine(*mean, *swing, *phase, 2 * order).matrix(n);
                 let reciprocal = inverse_cosine(*mean, *swing, *phase, 2 * order).matrix(n);
@@ -122,13 +132,13 @@ impl Pattern {
             }
         };
         let [yy, zz] = straight;
-        Tensor { xx: inverse(&reciprocal), xy: None, yy, zz_inverse: inverse(&zz) }
+        MaterialTensor { xx: inverse(&reciprocal), xy: None, yy, zz_inverse: inverse(&zz) }
     }
 
     /// Series −`most`…`most` of a function of the material, exact for bands.
-    fn bands(&self, most: usize, of: impl Fn(&Material) -> Complex64) -> Series {
+    fn bands(&self, most: usize, of: impl Fn(&GratingMaterial) -> Complex64) -> FourierSeries {
         let Self::Bands { edges, materials } = self else {
-            return Series(vec![Complex64::ZERO; 2 * most + 1]);
+            return FourierSeries(vec![Complex64::ZERO; 2 * most + 1]);
         };
         let period = edges[edges.len() - 1] - edges[0];
         let values: Vec<Complex64> = materials.iter().map(of).collect();
@@ -143,12 +153,12 @@ impl Pattern {
             sum * Complex64::new(0.0, 1.0 / turn)
         };
         let most = most as isize;
-        Series((-most..=most).map(coefficient).collect())
+        FourierSeries((-most..=most).map(coefficient).collect())
     }
 }
 
-fn cosine(mean: Complex64, swing: Complex64, phase: f64, most: usize) -> Series {
-    let mut series = Series(vec![Complex64::ZERO; 2 * most + 1]);
+fn cosine(mean: Complex64, swing: Complex64, phase: f64, most: usize) -> FourierSeries {
+    let mut series = FourierSeries(vec![Complex64::ZERO; 2 * most + 1]);
     series.0[most] = mean;
     if most > 0 {
         series.0[most + 1] = 0.5 * swing * Complex64::cis(phase);
@@ -158,7 +168,7 @@ fn cosine(mean: Complex64, swing: Complex64, phase: f64, most: usize) -> Series 
 }
 
 /// 1/(a + b cos θ) = Σ q^|m| e^{imθ}/√(a² − b²), q = (√(a² − b²) − a)/b with |q| < 1.
-fn inverse_cosine(mean: Complex64, swing: Complex64, phase: f64, most: usize) -> Series {
+fn inverse_cosine(mean: Complex64, swing: Complex64, phase: f64, most: usize) -> FourierSeries {
     let root = {
         // The sign that makes |q| < 1 is that of a.
         let root = (mean * mean - swing * swing).sqrt();
@@ -167,7 +177,7 @@ fn inverse_cosine(mean: Complex64, swing: Complex64, phase: f64, most: usize) ->
     // b/(−a − root), free of cancellation and right for b = 0.
     let q = -swing / (mean + root);
     let most = most as isize;
-    Series(
+    FourierSeries(
         (-most..=most)
             .map(|m| q.powi(m.unsigned_abs() as i32) / root * Complex64::cis(phase * m as f64))
             .collect(),
@@ -193,10 +203,10 @@ mod tests {
     #[test]
     fn moving_a_pattern_turns_the_phases_of_its_series() {
         let (line, space) = (
-            Material::from_index(Complex64::new(2.0, 0.1)),
-            Material::from_index(Complex64::new(1.0, 0.0)),
+            GratingMaterial::from_index(Complex64::new(2.0, 0.1)),
+            GratingMaterial::from_index(Complex64::new(1.0, 0.0)),
         );
-        let here = Pattern::line(-0.1, 0.2, 0.8, line, space);
+        let here = LinePattern::line(-0.1, 0.2, 0.8, line, space);
         let (a, b) =
             (here.bands(4, |m| m.epsilon[0]), here.shifted(0.3).bands(4, |m| m.epsilon[0]));
         for m in -4..=4 {

@@ -8,21 +8,22 @@
 //! M. G. Moharam, E. B. Grann, D. A. Pommet, T. K. Gaylord, J. Opt. Soc. Am. A 12, 1068 (1995).
 
 use super::{
-    COMMON, Common, Grating, Material, Pattern, Profile, Slice, finite, levels, not_negative,
+    COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice, finite,
+    levels, not_negative,
 };
 use crate::{
-    optics::Index,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    optics::RefractiveIndex,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::index("material", "(4.05,0.05)", "Index of the line"),
-    Param::index("space", "(1,0)", "Index between the lines"),
-    Param::number("height", "0.2", "um", "Height of the line"),
-    Param::number("topwidth", "0.2", "um", "Width at the top"),
-    Param::number("bottomwidth", "0.2", "um", "Width at the bottom"),
-    Param::number("offset", "0", "um", "Shift of the bottom against the top"),
-    Param::integer("nlevels", "10", "Number of slices"),
+const OWN: &[Parameter] = &[
+    Parameter::index("material", "(4.05,0.05)", "Index of the line"),
+    Parameter::index("space", "(1,0)", "Index between the lines"),
+    Parameter::number("height", "0.2", "um", "Height of the line"),
+    Parameter::number("topwidth", "0.2", "um", "Width at the top"),
+    Parameter::number("bottomwidth", "0.2", "um", "Width at the bottom"),
+    Parameter::number("offset", "0", "um", "Shift of the bottom against the top"),
+    Parameter::integer("nlevels", "10", "Number of slices"),
 ];
 
 /// How programs name, parameterize and build a [`SingleLine`].
@@ -42,9 +43,9 @@ pub const SPEC: Spec<dyn Grating> = Spec {
 /// A trapezoidal line.
 #[derive(Clone, Debug)]
 pub struct SingleLine {
-    common: Common,
-    material: Index,
-    space: Index,
+    common: GratingCommon,
+    material: RefractiveIndex,
+    space: RefractiveIndex,
     height: f64,
     top: f64,
     bottom: f64,
@@ -53,14 +54,14 @@ pub struct SingleLine {
 }
 
 impl SingleLine {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
-        let width = |name: &str| -> Result<f64, ParamError> {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = GratingCommon::read(node)?;
+        let width = |name: &str| -> Result<f64, ParameterError> {
             let width = not_negative(node, name)?;
             if width <= common.period {
                 return Ok(width);
             }
-            Err(ParamError::new(
+            Err(ParameterError::new(
                 name,
                 format!("{width} is wider than the period {}", common.period),
             ))
@@ -79,15 +80,18 @@ impl SingleLine {
 }
 
 impl Grating for SingleLine {
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
-        let line = Material::from_index(self.material.at(lambda));
-        let space = Material::from_index(self.space.at(lambda));
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError> {
+        let line = GratingMaterial::from_index(self.material.at(lambda));
+        let space = GratingMaterial::from_index(self.space.at(lambda));
         let thickness = self.height / self.levels as f64;
         let slices = (0..self.levels).map(|level| {
             let h = (level as f64 + 0.5) / self.levels as f64;
             let half = 0.5 * self.top + 0.5 * (self.bottom - self.top) * h;
             let (start, end) = (-half - self.offset * h, half - self.offset * h);
-            Slice { thickness, pattern: Pattern::line(start, end, self.common.period, line, space) }
+            LineSlice {
+                thickness,
+                pattern: LinePattern::line(start, end, self.common.period, line, space),
+            }
         });
         Ok(self.common.profile(lambda, slices))
     }

@@ -10,18 +10,21 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{COMMON, Common, Grating, Material, Pattern, Profile, Slice, levels, not_negative};
+use super::{
+    COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice, levels,
+    not_negative,
+};
 use crate::{
-    optics::Index,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    optics::RefractiveIndex,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::index("material", "(4.05,0.05)", "Index of the relief"),
-    Param::number("amplitude", "0.4", "um", "Height from trough to crest"),
-    Param::number("base", "0", "um", "Thickness of a full layer under the relief"),
-    Param::integer("option", "0", "0 equal steps of the width, 1 equal steps of the height"),
-    Param::integer("nlevels", "20", "Number of slices, the base among them"),
+const OWN: &[Parameter] = &[
+    Parameter::index("material", "(4.05,0.05)", "Index of the relief"),
+    Parameter::number("amplitude", "0.4", "um", "Height from trough to crest"),
+    Parameter::number("base", "0", "um", "Thickness of a full layer under the relief"),
+    Parameter::integer("option", "0", "0 equal steps of the width, 1 equal steps of the height"),
+    Parameter::integer("nlevels", "20", "Number of slices, the base among them"),
 ];
 
 /// How programs name, parameterize and build a [`SinusoidalRelief`].
@@ -41,8 +44,8 @@ pub const SPEC: Spec<dyn Grating> = Spec {
 /// A sinusoidal surface.
 #[derive(Clone, Debug)]
 pub struct SinusoidalRelief {
-    common: Common,
-    material: Index,
+    common: GratingCommon,
+    material: RefractiveIndex,
     amplitude: f64,
     base: f64,
     by_height: bool,
@@ -51,16 +54,16 @@ pub struct SinusoidalRelief {
 }
 
 impl SinusoidalRelief {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let base = not_negative(node, "base")?;
         let for_base = usize::from(base != 0.0);
         let by_height = match node.integer("option") {
             0 => false,
             1 => true,
-            other => return Err(ParamError::new("option", format!("{other} is not 0 or 1"))),
+            other => return Err(ParameterError::new("option", format!("{other} is not 0 or 1"))),
         };
         Ok(Self {
-            common: Common::read(node)?,
+            common: GratingCommon::read(node)?,
             material: node.index("material").clone(),
             amplitude: not_negative(node, "amplitude")?,
             base,
@@ -82,29 +85,33 @@ impl SinusoidalRelief {
 }
 
 impl Grating for SinusoidalRelief {
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError> {
         let period = self.common.period;
-        let inside = Material::from_index(self.material.at(lambda));
-        let outside = Material::from_index(self.common.above.at(lambda));
+        let inside = GratingMaterial::from_index(self.material.at(lambda));
+        let outside = GratingMaterial::from_index(self.common.above.at(lambda));
         let relief = (0..self.levels).map(|level| {
             let (half, thickness) = self.level(level);
-            Slice { thickness, pattern: Pattern::line(-half, half, period, inside, outside) }
+            LineSlice {
+                thickness,
+                pattern: LinePattern::line(-half, half, period, inside, outside),
+            }
         });
-        let base = Slice { thickness: self.base, pattern: Pattern::uniform(inside, period) };
+        let base =
+            LineSlice { thickness: self.base, pattern: LinePattern::uniform(inside, period) };
         Ok(self.common.profile(lambda, relief.chain((self.base > 0.0).then_some(base))))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::{Mode, Node, Value, grating::Grating, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, grating::Grating, spec};
 
     #[test]
     fn both_ways_of_cutting_keep_the_height() {
         for option in [0, 1] {
-            let node = Node::with_defaults(&super::SPEC.class, Mode::Sound)
-                .with("option", Value::Integer(option))
-                .and_then(|node| node.with("base", Value::Number(0.1)))
+            let node = ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)
+                .with("option", ParameterValue::Integer(option))
+                .and_then(|node| node.with("base", ParameterValue::Number(0.1)))
                 .unwrap();
             let profile = spec::build::<dyn Grating>(&node).unwrap().at(0.5).unwrap();
             let height: f64 = profile.slices.iter().map(|slice| slice.thickness).sum();

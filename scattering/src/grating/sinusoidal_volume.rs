@@ -9,18 +9,20 @@
 
 use std::f64::consts::TAU;
 
-use super::{COMMON, Common, Grating, Pattern, Profile, Slice, levels, not_negative};
+use super::{
+    COMMON, Grating, GratingCommon, LinePattern, LineProfile, LineSlice, levels, not_negative,
+};
 use crate::{
-    optics::Index,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    optics::RefractiveIndex,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::index("minimum", "(1.52,0)", "Index at one end of the swing"),
-    Param::index("maximum", "(1.5,0)", "Index at the other end"),
-    Param::number("thick", "0.1", "um", "Thickness"),
-    Param::number("tilt", "0", "deg", "Tilt of the fringes from the normal"),
-    Param::integer("nlevels", "1", "Number of slices"),
+const OWN: &[Parameter] = &[
+    Parameter::index("minimum", "(1.52,0)", "Index at one end of the swing"),
+    Parameter::index("maximum", "(1.5,0)", "Index at the other end"),
+    Parameter::number("thick", "0.1", "um", "Thickness"),
+    Parameter::number("tilt", "0", "deg", "Tilt of the fringes from the normal"),
+    Parameter::integer("nlevels", "1", "Number of slices"),
 ];
 
 /// How programs name, parameterize and build a [`SinusoidalVolume`].
@@ -40,22 +42,22 @@ pub const SPEC: Spec<dyn Grating> = Spec {
 /// A volume hologram.
 #[derive(Clone, Debug)]
 pub struct SinusoidalVolume {
-    common: Common,
-    minimum: Index,
-    maximum: Index,
+    common: GratingCommon,
+    minimum: RefractiveIndex,
+    maximum: RefractiveIndex,
     thickness: f64,
     slope: f64,
     levels: usize,
 }
 
 impl SinusoidalVolume {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let tilt = node.number("tilt");
         if tilt.is_nan() || tilt.abs() >= 90.0 {
-            return Err(ParamError::new("tilt", format!("{tilt} is not between -90 and 90")));
+            return Err(ParameterError::new("tilt", format!("{tilt} is not between -90 and 90")));
         }
         Ok(Self {
-            common: Common::read(node)?,
+            common: GratingCommon::read(node)?,
             minimum: node.index("minimum").clone(),
             maximum: node.index("maximum").clone(),
             thickness: not_negative(node, "thick")?,
@@ -66,19 +68,19 @@ impl SinusoidalVolume {
 }
 
 impl Grating for SinusoidalVolume {
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError> {
         let (low, high) = (self.minimum.at(lambda).powi(2), self.maximum.at(lambda).powi(2));
         let thickness = self.thickness / self.levels as f64;
         let period = self.common.period;
         let slices = (0..self.levels).map(|level| {
             let depth = (level as f64 + 0.5) * thickness;
-            let pattern = Pattern::Cosine {
+            let pattern = LinePattern::Cosine {
                 mean: 0.5 * (high + low),
                 swing: 0.5 * (high - low),
                 phase: TAU * depth * self.slope / period,
                 period,
             };
-            Slice { thickness, pattern }
+            LineSlice { thickness, pattern }
         });
         Ok(self.common.profile(lambda, slices))
     }

@@ -6,20 +6,23 @@
 //!
 //! M. G. Moharam, D. A. Pommet, E. B. Grann, T. K. Gaylord, J. Opt. Soc. Am. A 12, 1077 (1995).
 
-use super::{COMMON, Common, Grating, Material, Pattern, Profile, Slice, levels, not_negative};
+use super::{
+    COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice, levels,
+    not_negative,
+};
 use crate::{
-    optics::Index,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    optics::RefractiveIndex,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::index("material", "(4.05,0.05)", "Index of the ridge"),
-    Param::number("amplitude", "0.4", "um", "Height of the ridge"),
-    Param::number("aspect", "0.5", "1", "Position of the ridge in the period, 0 to 1"),
-    Param::integer("nlevels", "20", "Number of slices"),
+const OWN: &[Parameter] = &[
+    Parameter::index("material", "(4.05,0.05)", "Index of the ridge"),
+    Parameter::number("amplitude", "0.4", "um", "Height of the ridge"),
+    Parameter::number("aspect", "0.5", "1", "Position of the ridge in the period, 0 to 1"),
+    Parameter::integer("nlevels", "20", "Number of slices"),
 ];
 
-/// How programs name, parameterize and build a [`Triangular`].
+/// How programs name, parameterize and build a [`TriangularGrating`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Triangular_Grating",
@@ -30,27 +33,27 @@ pub const SPEC: Spec<dyn Grating> = Spec {
         params: &[COMMON, OWN],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Triangular::read(node)?)),
+    build: |node| Ok(Box::new(TriangularGrating::read(node)?)),
 };
 
 /// A triangular profile.
 #[derive(Clone, Debug)]
-pub struct Triangular {
-    common: Common,
-    material: Index,
+pub struct TriangularGrating {
+    common: GratingCommon,
+    material: RefractiveIndex,
     amplitude: f64,
     aspect: f64,
     levels: usize,
 }
 
-impl Triangular {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl TriangularGrating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let aspect = node.number("aspect");
         if !(0.0..=1.0).contains(&aspect) {
-            return Err(ParamError::new("aspect", format!("{aspect} is not from 0 to 1")));
+            return Err(ParameterError::new("aspect", format!("{aspect} is not from 0 to 1")));
         }
         Ok(Self {
-            common: Common::read(node)?,
+            common: GratingCommon::read(node)?,
             material: node.index("material").clone(),
             amplitude: not_negative(node, "amplitude")?,
             aspect,
@@ -59,17 +62,17 @@ impl Triangular {
     }
 }
 
-impl Grating for Triangular {
-    fn at(&self, lambda: f64) -> Result<Profile, ParamError> {
+impl Grating for TriangularGrating {
+    fn at(&self, lambda: f64) -> Result<LineProfile, ParameterError> {
         let period = self.common.period;
-        let inside = Material::from_index(self.material.at(lambda));
-        let outside = Material::from_index(self.common.above.at(lambda));
+        let inside = GratingMaterial::from_index(self.material.at(lambda));
+        let outside = GratingMaterial::from_index(self.common.above.at(lambda));
         let thickness = self.amplitude / self.levels as f64;
         let slices = (0..self.levels).map(|level| {
             let rest = 1.0 - (level as f64 + 0.5) / self.levels as f64;
             let start = -0.5 * period + period * self.aspect * rest;
             let end = 0.5 * period - period * (1.0 - self.aspect) * rest;
-            Slice { thickness, pattern: Pattern::line(start, end, period, inside, outside) }
+            LineSlice { thickness, pattern: LinePattern::line(start, end, period, inside, outside) }
         });
         Ok(self.common.profile(lambda, slices))
     }

@@ -8,10 +8,10 @@ use super::Real;
 #[inline(always)]
 pub fn sinh_cosh<R: Real>(x: R) -> [R; 2] {
     let falling = (-x).exp_falling();
-    let rising = x.all(1.0) / falling;
+    let rising = x.splat(1.0) / falling;
     // Where the difference would cancel: the series, whose first term left out is x¹⁵/15!.
     let series = x * polynomial(&SINH, x * x);
-    [(x - 0.5).choose((rising - falling) * 0.5, series), (rising + falling) * 0.5]
+    [(x - 0.5).select((rising - falling) * 0.5, series), (rising + falling) * 0.5]
 }
 
 /// The sine and cosine of x from 0 to π, to 3·10⁻¹⁶; the sine to 4·10⁻¹⁶ of it.
@@ -25,8 +25,8 @@ pub fn sin_cos_of_half_turn<R: Real>(x: R) -> [R; 2] {
     let r2 = r * r;
     let (sin, cos) = (r * polynomial(&SIN, r2), polynomial(&COS, r2));
     let is_one = -(quarters - 1.0).abs() + 0.5;
-    let (s, c) = (is_one.choose(cos, sin), is_one.choose(sin, cos));
-    [(-quarters + 1.5).choose(s, -s), (-quarters + 0.5).choose(c, -c)]
+    let (s, c) = (is_one.select(cos, sin), is_one.select(sin, cos));
+    [(-quarters + 1.5).select(s, -s), (-quarters + 0.5).select(c, -c)]
 }
 
 /// Σ c_k x^{n−k} of the coefficients c_0 … c_n: odd and even powers side by side, so that half
@@ -34,7 +34,7 @@ pub fn sin_cos_of_half_turn<R: Real>(x: R) -> [R; 2] {
 #[inline(always)]
 pub(crate) fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
     let square = x * x;
-    let mut sums = [x.all(0.0); 2];
+    let mut sums = [x.splat(0.0); 2];
     for (at, coefficient) in coefficients.iter().rev().enumerate().rev() {
         sums[at % 2] = sums[at % 2] * square + *coefficient;
     }

@@ -1,6 +1,6 @@
 //! The vectors of the processor, for batches.
 //!
-//! A [`Batch`] goes by [`WIDTH`] numbers: one register of processors with AVX-512, two of those with
+//! A [`LaneKernel`] goes by [`WIDTH`] numbers: one register of processors with AVX-512, two of those with
 //! AVX2, and [`Lanes`] elsewhere. All do the operations of one number in their order, so the bits
 //! are the same. No two operations become one, which would change them.
 
@@ -15,19 +15,19 @@ use super::{Lanes, Real, WIDTH};
 /// Work on a batch of directions.
 ///
 /// `run` and what it calls must be inlined: only then is it compiled for the processor.
-pub trait Batch {
+pub trait LaneKernel {
     /// Does the work with `vectors`.
-    fn run<V: Vectors>(self, vectors: V);
+    fn run<V: SimdLevel>(self, vectors: V);
 }
 
 /// Runs `batch` with the vectors of this processor.
-pub fn with_widest(batch: impl Batch) {
-    Kind::of_this_processor().next().unwrap_or(Kind::Plain).run(batch);
+pub fn dispatch(batch: impl LaneKernel) {
+    SimdKind::of_this_processor().next().unwrap_or(SimdKind::Plain).run(batch);
 }
 
 /// The kinds of vectors.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Kind {
+pub(super) enum SimdKind {
     /// AVX-512.
     #[cfg(target_arch = "x86_64")]
     V4(V4),
@@ -38,7 +38,7 @@ pub(super) enum Kind {
     Plain,
 }
 
-impl Kind {
+impl SimdKind {
     /// Those that this processor has, the widest first.
     #[inline]
     pub(super) fn of_this_processor() -> impl Iterator<Item = Self> {
@@ -54,7 +54,7 @@ impl Kind {
 
     /// Runs `batch` with these vectors.
     #[inline]
-    pub(super) fn run(self, batch: impl Batch) {
+    pub(super) fn run(self, batch: impl LaneKernel) {
         match self {
             #[cfg(target_arch = "x86_64")]
             Self::V4(simd) => Simd::vectorize(simd, Registers::<_, 1>(batch)),
@@ -68,7 +68,7 @@ impl Kind {
 /// A batch in vectors of `N` registers.
 struct Registers<B, const N: usize>(B);
 
-impl<B: Batch, const N: usize> WithSimd for Registers<B, N> {
+impl<B: LaneKernel, const N: usize> WithSimd for Registers<B, N> {
     type Output = ();
 
     #[inline(always)]
@@ -79,23 +79,23 @@ impl<B: Batch, const N: usize> WithSimd for Registers<B, N> {
 }
 
 /// A kind of vectors of [`WIDTH`] numbers.
-pub trait Vectors: Copy {
+pub trait SimdLevel: Copy {
     /// A vector.
-    type Real: Real;
+    type Vector: Real;
 
     /// The vector of the numbers `x`.
-    fn load(self, x: &[f64; WIDTH]) -> Self::Real;
+    fn load(self, x: &[f64; WIDTH]) -> Self::Vector;
 
     /// The numbers of the vector `x`.
-    fn store(self, x: Self::Real) -> [f64; WIDTH];
+    fn store(self, x: Self::Vector) -> [f64; WIDTH];
 }
 
 /// No registers, but [`Lanes`].
 #[derive(Clone, Copy)]
 struct Plain;
 
-impl Vectors for Plain {
-    type Real = Lanes;
+impl SimdLevel for Plain {
+    type Vector = Lanes;
 
     #[inline(always)]
     fn load(self, x: &[f64; WIDTH]) -> Lanes {
@@ -112,8 +112,8 @@ impl Vectors for Plain {
 #[derive(Clone, Copy)]
 struct Wide<S, const N: usize>(S);
 
-impl<S: Simd, const N: usize> Vectors for Wide<S, N> {
-    type Real = Vector<S, N>;
+impl<S: Simd, const N: usize> SimdLevel for Wide<S, N> {
+    type Vector = Vector<S, N>;
 
     #[inline(always)]
     fn load(self, numbers: &[f64; WIDTH]) -> Vector<S, N> {
@@ -146,7 +146,7 @@ impl<S: Simd, const N: usize> Vector<S, N> {
 
 impl<S: Simd, const N: usize> Real for Vector<S, N> {
     #[inline(always)]
-    fn all(self, x: f64) -> Self {
+    fn splat(self, x: f64) -> Self {
         Self { x: [self.simd.splat_f64s(x); N], ..self }
     }
 
@@ -172,7 +172,7 @@ impl<S: Simd, const N: usize> Real for Vector<S, N> {
     }
 
     #[inline(always)]
-    fn choose(mut self, a: Self, b: Self) -> Self {
+    fn select(mut self, a: Self, b: Self) -> Self {
         let zero = self.simd.splat_f64s(0.0);
         for k in 0..N {
             let is_positive = self.simd.greater_than_or_equal_f64s(self.x[k], zero);
@@ -213,7 +213,7 @@ macro_rules! arithmetic {
 
             #[inline(always)]
             fn $function(self, other: f64) -> Self {
-                self.$function(self.all(other))
+                self.$function(self.splat(other))
             }
         }
     )*};

@@ -2,11 +2,11 @@
 
 use num_complex::Complex64;
 
-use super::{Brdf, Common};
+use super::{Brdf, CommonParameters};
 use crate::{
-    Node, ParamError,
+    ParameterError, ParameterNode,
     optics::film::Films,
-    spec::{Family, Param, Spec},
+    spec::{Family, Parameter, Spec},
     stack::Stack,
 };
 
@@ -19,7 +19,7 @@ pub const ALL: &[&Spec<dyn Brdf>] =
     &[&lambertian::SPEC, &diffuse_subsurface::SPEC, &first_diffuse::SPEC];
 
 /// The parameter of models with a smooth interface: the films on it.
-pub(super) const INTERFACE: &[Param] = &[Param::member(
+pub(super) const INTERFACE: &[Parameter] = &[Parameter::member(
     "stack",
     Family::Stack,
     "StackModel",
@@ -29,12 +29,12 @@ pub(super) const INTERFACE: &[Param] = &[Param::member(
 
 /// The films of `node` between vacuum and `substrate`.
 pub(super) fn interface(
-    node: &Node,
-    common: &Common,
+    node: &ParameterNode,
+    common: &CommonParameters,
     substrate: Complex64,
-) -> Result<Films, ParamError> {
+) -> Result<Films, ParameterError> {
     if !(substrate.re > 0.0 && substrate.is_finite()) {
-        return Err(ParamError::new("substrate", format!("{substrate} is not an index")));
+        return Err(ParameterError::new("substrate", format!("{substrate} is not an index")));
     }
     let films = node.member::<Stack>("stack")?.at(common.lambda);
     Ok(Films::new(&films, Complex64::ONE, substrate, common.lambda))

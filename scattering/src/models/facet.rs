@@ -2,14 +2,14 @@
 
 use super::Brdf;
 use crate::{
-    ParamError,
+    ParameterError,
     shadow::Shadow,
     slope::SlopeDistribution,
-    spec::{Family, Node, Param, Spec},
+    spec::{Family, Parameter, ParameterNode, Spec},
 };
 
 pub mod bare;
-mod several;
+mod batch;
 pub mod shadowed;
 pub mod shadowed_subsurface;
 pub mod subsurface;
@@ -20,26 +20,26 @@ pub const ALL: &[&Spec<dyn Brdf>] =
     &[&bare::SPEC, &shadowed::SPEC, &subsurface::SPEC, &shadowed_subsurface::SPEC];
 
 /// The parameters of every facet model: slopes, and films on the facets.
-pub const FACET: &[Param] = &[
-    Param::member(
+pub const FACET: &[Parameter] = &[
+    Parameter::member(
         "sdf",
         Family::Slope,
         "Slope_Distribution_Function",
         "Exponential_Slope_Distribution_Function",
         "Density of facet slopes",
     ),
-    Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films on each facet"),
+    Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films on each facet"),
 ];
 
 /// The shadow function `name`, adapted to the slopes of the facets.
 fn read_shadow(
-    node: &Node,
+    node: &ParameterNode,
     name: &str,
     slopes: &dyn SlopeDistribution,
-) -> Result<Box<dyn Shadow>, ParamError> {
+) -> Result<Box<dyn Shadow>, ParameterError> {
     let mut shadow = node.member::<dyn Shadow>(name)?;
-    shadow
-        .adapt(slopes)
-        .map_err(|error| ParamError::new(&format!("{name}.{}", error.parameter), error.problem))?;
+    shadow.adapt(slopes).map_err(|error| {
+        ParameterError::new(&format!("{name}.{}", error.parameter), error.problem)
+    })?;
     Ok(shadow)
 }

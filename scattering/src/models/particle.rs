@@ -1,7 +1,7 @@
 //! Particles on, in and below a surface.
 
 use super::Brdf;
-use crate::spec::{Param, Spec};
+use crate::spec::{Parameter, Spec};
 
 pub mod axisymmetric;
 pub mod bobbert_vlieger;
@@ -30,5 +30,5 @@ pub const ALL: &[&Spec<dyn Brdf>] = &[
 ];
 
 /// The parameter of models that multiply the cross-section of a particle by their number.
-pub const LOCAL: &[Param] =
-    &[Param::number("density", "1", "1/um^2", "Number of particles per area")];
+pub const LOCAL: &[Parameter] =
+    &[Parameter::number("density", "1", "1/um^2", "Number of particles per area")];

@@ -10,11 +10,11 @@
 //! Mueller matrix is PSD times that of the amplitude. First order means heights well below the
 //! wavelength; neither the specular beam nor multiple scattering is included.
 
-use super::{Brdf, Common};
+use super::{Brdf, CommonParameters};
 use crate::{
-    Direction, Incidence, Node, ParamError,
+    Direction, Incidence, ParameterError, ParameterNode,
     psd::Psd,
-    spec::{Family, Param, Spec},
+    spec::{Family, Parameter, Spec},
 };
 
 mod coherent;
@@ -39,7 +39,7 @@ pub const ALL: &[&Spec<dyn Brdf>] = &[
 ];
 
 /// The parameter of every roughness model.
-pub const ROUGHNESS: &[Param] = &[Param::member(
+pub const ROUGHNESS: &[Parameter] = &[Parameter::member(
     "psd",
     Family::Psd,
     "PSD_Function",
@@ -48,20 +48,20 @@ pub const ROUGHNESS: &[Param] = &[Param::member(
 )];
 
 /// The films of a stack model.
-const STACK: &[Param] =
-    &[Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films")];
+const STACK: &[Parameter] =
+    &[Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films")];
 
 /// What every roughness model has: the common part, the spectrum, the frequencies.
-struct Rough {
-    common: Common,
+struct RoughSurface {
+    common: CommonParameters,
     psd: Box<dyn Psd>,
     /// m_i/λ and m_s/λ, 1/µm.
     per_sine: (f64, f64),
 }
 
-impl Rough {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+impl RoughSurface {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         let index = |inside: bool| if inside { common.substrate.re } else { 1.0 };
         let per_sine = (
             index(common.side.from_below()) / common.lambda,
@@ -86,10 +86,10 @@ impl Rough {
 }
 
 /// The thickness `name` of a single film, µm.
-fn thickness(node: &Node, name: &str) -> Result<f64, ParamError> {
+fn thickness(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let value = node.number(name);
     if value >= 0.0 && value.is_finite() {
         return Ok(value);
     }
-    Err(ParamError::new(name, format!("{value} um is not the thickness of a film")))
+    Err(ParameterError::new(name, format!("{value} um is not the thickness of a film")))
 }

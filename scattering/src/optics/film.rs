@@ -43,14 +43,14 @@ const SMALL_PHASE: f64 = 1e-2;
 
 /// A pair of amplitude coefficients.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pair {
+pub struct SpAmplitudes {
     /// For s.
     pub s: Complex64,
     /// For p.
     pub p: Complex64,
 }
 
-impl Pair {
+impl SpAmplitudes {
     /// The Jones matrix that is diagonal with these elements.
     pub fn jones(self) -> Jones {
         Jones::diagonal(self.s, self.p)
@@ -62,7 +62,7 @@ impl Pair {
 /// The normal displacement of p is D = κU. For a unit **electric** p wave in a medium of index n
 /// multiply `u` and `w` by n.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Fields {
+pub struct TangentialFields {
     /// Electric field of s.
     pub e: Complex64,
     /// Magnetic field of p.
@@ -73,7 +73,7 @@ pub struct Fields {
 
 /// A wave that meets the stack, by the side it comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wave {
+pub enum IncidentSide {
     /// From the outer medium: "12".
     FromOutside,
     /// From the substrate: "21".
@@ -83,10 +83,10 @@ pub enum Wave {
 /// Films between two media at one wavelength, prepared for many angles.
 #[derive(Clone, Debug)]
 pub struct Films {
-    outer: Medium,
-    substrate: Medium,
+    outer: FilmMedium,
+    substrate: FilmMedium,
     /// The one next to the substrate first.
-    layers: Vec<Layer>,
+    layers: Vec<FilmLayer>,
     /// 2π/λ, 1/µm.
     wave_number: f64,
     /// That of all films, µm.
@@ -98,15 +98,15 @@ pub struct Films {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Medium {
+struct FilmMedium {
     index: Complex64,
     epsilon: Complex64,
     inverse_epsilon: Complex64,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Layer {
-    medium: Medium,
+struct FilmLayer {
+    medium: FilmMedium,
     /// 2πt/λ.
     phase: f64,
     /// t, µm.
@@ -115,21 +115,21 @@ struct Layer {
 
 /// The two field vectors (s, p) at a face, each times a common phase factor.
 #[derive(Clone, Copy)]
-struct Vectors {
+struct FieldVectors {
     s: [Complex64; 2],
     p: [Complex64; 2],
 }
 
 /// What a wave at a face of the stack meets: X ± Z of both polarizations.
-struct Entrance {
-    y0: Pair,
-    x: Pair,
-    z: Pair,
+struct EntranceFields {
+    y0: SpAmplitudes,
+    x: SpAmplitudes,
+    z: SpAmplitudes,
     /// The product of the factors of the films passed.
     phase: Complex64,
 }
 
-impl Medium {
+impl FilmMedium {
     fn new(index: Complex64) -> Self {
         // A film whose graded index passes through 0 would have no admittance.
         let index =
@@ -138,8 +138,8 @@ impl Medium {
         Self { index, epsilon, inverse_epsilon: 1.0 / epsilon }
     }
 
-    fn admittances(&self, q: Complex64) -> Pair {
-        Pair { s: q, p: q * self.inverse_epsilon }
+    fn admittances(&self, q: Complex64) -> SpAmplitudes {
+        SpAmplitudes { s: q, p: q * self.inverse_epsilon }
     }
 }
 
@@ -153,18 +153,18 @@ impl Films {
         lambda: f64,
     ) -> Self {
         let wave_number = TAU / lambda;
-        let layer = |&(index, thickness): &(Complex64, f64)| Layer {
-            medium: Medium::new(index),
+        let layer = |&(index, thickness): &(Complex64, f64)| FilmLayer {
+            medium: FilmMedium::new(index),
             phase: wave_number * thickness,
             thickness,
         };
-        let layers: Vec<Layer> = films.iter().map(layer).collect();
-        let clear = |layer: &Layer| {
+        let layers: Vec<FilmLayer> = films.iter().map(layer).collect();
+        let clear = |layer: &FilmLayer| {
             if layer.medium.epsilon.im == 0.0 { layer.medium.epsilon.re } else { -1.0 }
         };
         Self {
-            outer: Medium::new(outer),
-            substrate: Medium::new(substrate),
+            outer: FilmMedium::new(outer),
+            substrate: FilmMedium::new(substrate),
             wave_number,
             thickness: layers.iter().map(|layer| layer.thickness).sum(),
             clear_below: layers.iter().map(clear).fold(f64::INFINITY, f64::min),
@@ -216,36 +216,38 @@ impl Films {
     }
 
     /// Reflection of light from outside.
-    pub fn r12(&self, kappa: Complex64) -> Pair {
-        self.entrance(Wave::FromOutside, kappa * kappa).reflection()
+    pub fn r12(&self, kappa: Complex64) -> SpAmplitudes {
+        self.entrance(IncidentSide::FromOutside, kappa * kappa).reflection()
     }
 
     /// Reflection of light from the substrate.
-    pub fn r21(&self, kappa: Complex64) -> Pair {
-        self.entrance(Wave::FromSubstrate, kappa * kappa).reflection()
+    pub fn r21(&self, kappa: Complex64) -> SpAmplitudes {
+        self.entrance(IncidentSide::FromSubstrate, kappa * kappa).reflection()
     }
 
     /// Transmission of electric fields from outside into the substrate.
-    pub fn t12(&self, kappa: Complex64) -> Pair {
+    pub fn t12(&self, kappa: Complex64) -> SpAmplitudes {
         let ratio = self.outer.index / self.substrate.index;
-        self.entrance(Wave::FromOutside, kappa * kappa).transmission(ratio)
+        self.entrance(IncidentSide::FromOutside, kappa * kappa).transmission(ratio)
     }
 
     /// Transmission of electric fields from the substrate to the outside.
-    pub fn t21(&self, kappa: Complex64) -> Pair {
+    pub fn t21(&self, kappa: Complex64) -> SpAmplitudes {
         let ratio = self.substrate.index / self.outer.index;
-        self.entrance(Wave::FromSubstrate, kappa * kappa).transmission(ratio)
+        self.entrance(IncidentSide::FromSubstrate, kappa * kappa).transmission(ratio)
     }
 
     /// [`Films::r12`] for real κ ≤ n of a transparent outer medium where `q_outer` = n cos θ and
     /// κ² are known already; the shortest way for a bare interface.
-    pub fn r12_known(&self, q_outer: f64, kappa_squared: f64) -> Pair {
+    pub fn r12_known(&self, q_outer: f64, kappa_squared: f64) -> SpAmplitudes {
         if !self.layers.is_empty() {
             let q0 = Complex64::from(q_outer);
-            return self.entrance_with(Wave::FromOutside, kappa_squared.into(), q0).reflection();
+            return self
+                .entrance_with(IncidentSide::FromOutside, kappa_squared.into(), q0)
+                .reflection();
         }
         let [s, p] = self.bare(q_outer, kappa_squared);
-        Pair { s: s.into(), p: p.into() }
+        SpAmplitudes { s: s.into(), p: p.into() }
     }
 
     /// Whether [`Films::bare`] says what this interface reflects of light from outside.
@@ -262,7 +264,7 @@ impl Films {
             q.im = -q.im;
         }
         let outer = Complex::real(q_outer);
-        let (a, b) = (Complex { re: q_outer * et.re, im: q_outer * et.im }, q * q_outer.all(e0));
+        let (a, b) = (Complex { re: q_outer * et.re, im: q_outer * et.im }, q * q_outer.splat(e0));
         ratios([outer - q, a - b], [outer + q, a + b])
     }
 
@@ -273,13 +275,18 @@ impl Films {
     /// # Panics
     ///
     /// If `out` does not have one element more than there are films.
-    pub fn fields_at_interfaces(&self, from: Wave, kappa: Complex64, out: &mut [Fields]) {
+    pub fn fields_at_interfaces(
+        &self,
+        from: IncidentSide,
+        kappa: Complex64,
+        out: &mut [TangentialFields],
+    ) {
         assert_eq!(out.len(), self.layers.len() + 1, "one interface more than films");
         let kappa2 = kappa * kappa;
         let (entry, exit) = self.ends(from);
         let place = |passed: usize| match from {
-            Wave::FromOutside => passed,
-            Wave::FromSubstrate => self.layers.len() - passed,
+            IncidentSide::FromOutside => passed,
+            IncidentSide::FromSubstrate => self.layers.len() - passed,
         };
         let mut v = self.exit_vectors(exit, kappa2);
         out[place(0)] = v.fields();
@@ -301,17 +308,22 @@ impl Films {
     /// Fields at the depth `depth` µm below the outer face, for a wave from the side `from` with
     /// unit amplitude where it enters the stack. Negative depths lie in the outer medium, depths
     /// beyond the films in the substrate.
-    pub fn fields_at_depth(&self, from: Wave, kappa: Complex64, depth: f64) -> Fields {
+    pub fn fields_at_depth(
+        &self,
+        from: IncidentSide,
+        kappa: Complex64,
+        depth: f64,
+    ) -> TangentialFields {
         let kappa2 = kappa * kappa;
         if kappa.im == 0.0 && self.is_clear_at(kappa2.re, depth) {
             let [e, u, w] = self.clear_fields(from, kappa2.re, depth).map(Into::into);
-            return Fields { e, u, w };
+            return TangentialFields { e, u, w };
         }
         let (entry, exit) = self.ends(from);
         // Distance from the exit face, positive towards the source.
         let distance = match from {
-            Wave::FromOutside => self.thickness - depth,
-            Wave::FromSubstrate => depth,
+            IncidentSide::FromOutside => self.thickness - depth,
+            IncidentSide::FromSubstrate => depth,
         };
         let mut v = self.exit_vectors(exit, kappa2);
         if distance < 0.0 {
@@ -329,7 +341,7 @@ impl Films {
                 let part = self.part(layer.medium, distance - passed);
                 v.pass(&part, q);
                 found = Some(v.fields());
-                left = v.pass(&Layer { phase: layer.phase - part.phase, ..*layer }, q);
+                left = v.pass(&FilmLayer { phase: layer.phase - part.phase, ..*layer }, q);
             } else {
                 let factor = v.pass(layer, q);
                 if found.is_some() {
@@ -348,38 +360,38 @@ impl Films {
         outside.fields().scaled(amplitude, ONE / gone)
     }
 
-    fn part(&self, medium: Medium, thickness: f64) -> Layer {
-        Layer { medium, phase: self.wave_number * thickness, thickness }
+    fn part(&self, medium: FilmMedium, thickness: f64) -> FilmLayer {
+        FilmLayer { medium, phase: self.wave_number * thickness, thickness }
     }
 
     /// (entrance medium, exit medium).
-    fn ends(&self, from: Wave) -> (Medium, Medium) {
+    fn ends(&self, from: IncidentSide) -> (FilmMedium, FilmMedium) {
         match from {
-            Wave::FromOutside => (self.outer, self.substrate),
-            Wave::FromSubstrate => (self.substrate, self.outer),
+            IncidentSide::FromOutside => (self.outer, self.substrate),
+            IncidentSide::FromSubstrate => (self.substrate, self.outer),
         }
     }
 
     /// The films in the order from the exit to the entrance.
     fn exit_to_entrance(
         &self,
-        from: Wave,
-    ) -> impl DoubleEndedIterator<Item = &Layer> + ExactSizeIterator {
+        from: IncidentSide,
+    ) -> impl DoubleEndedIterator<Item = &FilmLayer> + ExactSizeIterator {
         let last = self.layers.len();
         (0..last).map(move |j| match from {
-            Wave::FromOutside => &self.layers[j],
-            Wave::FromSubstrate => &self.layers[last - 1 - j],
+            IncidentSide::FromOutside => &self.layers[j],
+            IncidentSide::FromSubstrate => &self.layers[last - 1 - j],
         })
     }
 
     #[inline]
-    fn exit_vectors(&self, exit: Medium, kappa2: Complex64) -> Vectors {
+    fn exit_vectors(&self, exit: FilmMedium, kappa2: Complex64) -> FieldVectors {
         let y = exit.admittances(self.root(exit.epsilon - kappa2));
-        Vectors { s: [ONE, y.s], p: [ONE, y.p] }
+        FieldVectors { s: [ONE, y.s], p: [ONE, y.p] }
     }
 
     /// Carries `v` through all films and returns the product of their factors.
-    fn pass_all(&self, from: Wave, kappa2: Complex64, v: &mut Vectors) -> Complex64 {
+    fn pass_all(&self, from: IncidentSide, kappa2: Complex64, v: &mut FieldVectors) -> Complex64 {
         let mut phase = ONE;
         for layer in self.exit_to_entrance(from) {
             phase *= v.pass(layer, self.root(layer.medium.epsilon - kappa2));
@@ -389,7 +401,7 @@ impl Films {
 
     /// 2Y₀/(X + Z) of both polarizations for the vectors at the entrance.
     #[inline]
-    fn amplitude(&self, entry: Medium, kappa2: Complex64, v: &Vectors) -> Pair {
+    fn amplitude(&self, entry: FilmMedium, kappa2: Complex64, v: &FieldVectors) -> SpAmplitudes {
         let y0 = entry.admittances(self.root(entry.epsilon - kappa2));
         let one = |y0: Complex64, [a, b]: [Complex64; 2]| {
             if y0.im == 0.0 {
@@ -398,23 +410,28 @@ impl Films {
             }
             2.0 * y0 / (a * y0 + b)
         };
-        Pair { s: one(y0.s, v.s), p: one(y0.p, v.p) }
+        SpAmplitudes { s: one(y0.s, v.s), p: one(y0.p, v.p) }
     }
 
-    fn entrance(&self, from: Wave, kappa2: Complex64) -> Entrance {
+    fn entrance(&self, from: IncidentSide, kappa2: Complex64) -> EntranceFields {
         let (entry, _) = self.ends(from);
         self.entrance_with(from, kappa2, self.root(entry.epsilon - kappa2))
     }
 
-    fn entrance_with(&self, from: Wave, kappa2: Complex64, q0: Complex64) -> Entrance {
+    fn entrance_with(
+        &self,
+        from: IncidentSide,
+        kappa2: Complex64,
+        q0: Complex64,
+    ) -> EntranceFields {
         let (entry, exit) = self.ends(from);
         let mut v = self.exit_vectors(exit, kappa2);
         let phase = self.pass_all(from, kappa2, &mut v);
         let y0 = entry.admittances(q0);
-        Entrance {
+        EntranceFields {
             y0,
-            x: Pair { s: v.s[0] * y0.s, p: v.p[0] * y0.p },
-            z: Pair { s: v.s[1], p: v.p[1] },
+            x: SpAmplitudes { s: v.s[0] * y0.s, p: v.p[0] * y0.p },
+            z: SpAmplitudes { s: v.s[1], p: v.p[1] },
             phase,
         }
     }
@@ -427,39 +444,39 @@ impl Films {
     }
 }
 
-impl Entrance {
-    fn reflection(&self) -> Pair {
-        Pair {
+impl EntranceFields {
+    fn reflection(&self) -> SpAmplitudes {
+        SpAmplitudes {
             s: (self.x.s - self.z.s) / (self.x.s + self.z.s),
             p: (self.x.p - self.z.p) / (self.x.p + self.z.p),
         }
     }
 
-    fn transmission(&self, index_ratio: Complex64) -> Pair {
-        Pair {
+    fn transmission(&self, index_ratio: Complex64) -> SpAmplitudes {
+        SpAmplitudes {
             s: 2.0 * self.y0.s * self.phase / (self.x.s + self.z.s),
             p: index_ratio * 2.0 * self.y0.p * self.phase / (self.x.p + self.z.p),
         }
     }
 }
 
-impl Layer {
+impl FilmLayer {
     /// Whether a wave with this q travels in it without loss.
     fn is_clear(&self, q: Complex64) -> bool {
         q.im == 0.0 && self.medium.epsilon.im == 0.0
     }
 
-    /// What [`Vectors::pass`] multiplies by: e^{iδ} where the wave fades.
+    /// What [`FieldVectors::pass`] multiplies by: e^{iδ} where the wave fades.
     fn factor(&self, q: Complex64) -> Complex64 {
         if self.is_clear(q) { ONE } else { phase_factor(q, self.phase) }
     }
 }
 
-impl Vectors {
+impl FieldVectors {
     /// Carries both vectors through `layer`, from its far to its near face, and returns the
     /// factor that they were multiplied by.
     #[inline]
-    fn pass(&mut self, layer: &Layer, q: Complex64) -> Complex64 {
+    fn pass(&mut self, layer: &FilmLayer, q: Complex64) -> Complex64 {
         if layer.phase == 0.0 {
             return ONE;
         }
@@ -481,7 +498,7 @@ impl Vectors {
             let sin = -0.5 * I * (double - 1.0);
             (sin, sin / q)
         };
-        let Medium { epsilon, inverse_epsilon, .. } = layer.medium;
+        let FilmMedium { epsilon, inverse_epsilon, .. } = layer.medium;
         let [a, b] = self.s;
         self.s = [a * cos - I * b * sin_over_q, b * cos - I * a * q * sin];
         let [a, b] = self.p;
@@ -490,14 +507,14 @@ impl Vectors {
         factor
     }
 
-    fn fields(&self) -> Fields {
-        Fields { e: self.s[0], u: self.p[0], w: self.p[1] }
+    fn fields(&self) -> TangentialFields {
+        TangentialFields { e: self.s[0], u: self.p[0], w: self.p[1] }
     }
 }
 
-impl Fields {
+impl TangentialFields {
     #[inline]
-    fn scaled(&self, amplitude: Pair, phase: Complex64) -> Self {
+    fn scaled(&self, amplitude: SpAmplitudes, phase: Complex64) -> Self {
         let (s, p) = (amplitude.s * phase, amplitude.p * phase);
         Self { e: self.e * s, u: self.u * p, w: self.w * p }
     }
@@ -519,13 +536,13 @@ pub fn decaying_root(z: Complex64) -> Complex64 {
 #[inline(always)]
 pub(crate) fn root<R: Real>(re: R, im: f64) -> Complex<R> {
     if im == 0.0 {
-        let part = |x: R| (-x).choose(x.all(0.0), x).sqrt();
+        let part = |x: R| (-x).select(x.splat(0.0), x).sqrt();
         return Complex { re: part(re), im: part(-re) };
     }
     let size = (re * re + im * im).sqrt();
     let large = ((size + re.abs()) * 0.5).sqrt();
-    let small = re.all(0.5 * im) / large;
-    Complex { re: re.choose(large, small), im: re.choose(small, large) }
+    let small = re.splat(0.5 * im) / large;
+    Complex { re: re.select(large, small), im: re.select(small, large) }
 }
 
 #[cfg(test)]
@@ -597,7 +614,7 @@ mod tests {
         // smaller than at the surface.
         let glass = Films::new(&[], ONE, c(1.5, 0.0), 0.55);
         let kappa = glass.kappa_inside(0.9);
-        let at = |depth| glass.fields_at_depth(Wave::FromSubstrate, kappa, depth).e.norm();
+        let at = |depth| glass.fields_at_depth(IncidentSide::FromSubstrate, kappa, depth).e.norm();
         assert!(at(-0.275) < 0.2 * at(0.0));
         assert!((glass.r21(kappa).s.norm() - 1.0).abs() < 1e-15);
     }
@@ -623,12 +640,14 @@ mod tests {
     fn fields_at_the_faces_are_one_plus_r_and_t() {
         let films = stack();
         let kappa = c(0.6, 0.0);
-        let mut at = [Fields::default(); 3];
-        for (from, first, last) in [(Wave::FromOutside, 2, 0), (Wave::FromSubstrate, 0, 2)] {
+        let mut at = [TangentialFields::default(); 3];
+        for (from, first, last) in
+            [(IncidentSide::FromOutside, 2, 0), (IncidentSide::FromSubstrate, 0, 2)]
+        {
             films.fields_at_interfaces(from, kappa, &mut at);
             let (r, t, entry, exit) = match from {
-                Wave::FromOutside => (films.r12(kappa), films.t12(kappa), 1.0, 1.5),
-                Wave::FromSubstrate => (films.r21(kappa), films.t21(kappa), 1.5, 1.0),
+                IncidentSide::FromOutside => (films.r12(kappa), films.t12(kappa), 1.0, 1.5),
+                IncidentSide::FromSubstrate => (films.r21(kappa), films.t21(kappa), 1.5, 1.0),
             };
             assert!(close(at[first].e, 1.0 + r.s, 1e-14));
             assert!(close(at[first].u, 1.0 + r.p, 1e-14));
@@ -641,8 +660,8 @@ mod tests {
     fn fields_at_the_depth_of_an_interface_are_those_of_the_interface() {
         let films = stack();
         let kappa = c(0.6, 0.0);
-        let mut at = [Fields::default(); 3];
-        for from in [Wave::FromOutside, Wave::FromSubstrate] {
+        let mut at = [TangentialFields::default(); 3];
+        for from in [IncidentSide::FromOutside, IncidentSide::FromSubstrate] {
             films.fields_at_interfaces(from, kappa, &mut at);
             for (interface, depth) in [(2, 0.0), (1, 0.2), (0, 0.33)] {
                 for nudge in [-1e-12, 0.0, 1e-12] {

@@ -20,10 +20,10 @@
 
 use num_complex::Complex64;
 
-use super::film::{Fields, Films, Wave};
+use super::film::{Films, IncidentSide, TangentialFields};
 use crate::{
     Direction, Incidence, Jones, Side,
-    geometry::Outgoing,
+    geometry::ScatteredRay,
     lanes::{Complex, Real},
 };
 
@@ -35,7 +35,7 @@ pub struct FirstOrder {
     /// What the indices were divided by.
     unit: f64,
     /// Where the detector is.
-    from: Wave,
+    from: IncidentSide,
     /// n_d.
     index: f64,
     /// σ.
@@ -68,8 +68,8 @@ impl FirstOrder {
         let lambda = lambda / unit;
         let films = Films::new(&films, Complex64::ONE, substrate, lambda);
         let (from, index, sign) = match side {
-            Side::DownUp | Side::UpDown => (Wave::FromOutside, 1.0, -1.0),
-            Side::DownDown | Side::UpUp => (Wave::FromSubstrate, substrate.re, 1.0),
+            Side::DownUp | Side::UpDown => (IncidentSide::FromOutside, 1.0, -1.0),
+            Side::DownDown | Side::UpUp => (IncidentSide::FromSubstrate, substrate.re, 1.0),
         };
         Self { films, lambda, unit, from, index, sign, turned_over }
     }
@@ -105,7 +105,7 @@ impl FirstOrder {
     }
 
     /// Tangential index of the wave from the detector, and the side it comes from.
-    pub fn kappa_out(&self, direction: &Direction) -> (Wave, Complex64) {
+    pub fn kappa_out(&self, direction: &Direction) -> (IncidentSide, Complex64) {
         (self.from, (self.index * direction.sin).into())
     }
 
@@ -114,7 +114,7 @@ impl FirstOrder {
     pub fn drive(
         &self,
         incidence: &Incidence,
-        fields: &Fields,
+        fields: &TangentialFields,
         coupling: Complex64,
         inverse_product: Complex64,
     ) -> Drive {
@@ -128,10 +128,10 @@ impl FirstOrder {
 
     /// The amplitude whose Mueller matrix is the BRDF; `seen` are the fields of the detector.
     #[inline]
-    pub fn scatter(&self, drive: &Drive, seen: &Fields, direction: &Direction) -> Jones {
+    pub fn scatter(&self, drive: &Drive, seen: &TangentialFields, direction: &Direction) -> Jones {
         let seen = [seen.e, seen.u, seen.w].map(Into::into);
         let [ss, ps, sp, pp] =
-            self.elements(drive, seen, &Outgoing::one(direction)).map(Into::into);
+            self.elements(drive, seen, &ScatteredRay::single(direction)).map(Into::into);
         Jones { ss, ps, sp, pp }
     }
 
@@ -141,11 +141,11 @@ impl FirstOrder {
         &self,
         drive: &Drive,
         [e, u, w]: [Complex<R>; 3],
-        to: &Outgoing<R>,
+        to: &ScatteredRay<R>,
     ) -> [Complex<R>; 4] {
-        let scale = to.cos.all(1.0) / to.cos.sqrt();
+        let scale = to.cos.splat(1.0) / to.cos.sqrt();
         let (c, s) = (to.cos_phi * scale, to.sin_phi * scale);
-        let w = w * to.cos.all(self.sign * self.index);
+        let w = w * to.cos.splat(self.sign * self.index);
         let across = if self.turned_over { -s } else { s };
         [
             e.times(drive.e) * c,

@@ -2,21 +2,21 @@
 
 use num_complex::Complex64;
 
-use super::Table;
+use super::RealFunction;
 
 /// An index of refraction: two functions of the vacuum wavelength in µm, k ≥ 0 absorbing.
 #[derive(Clone, Debug)]
-pub struct Index {
+pub struct RefractiveIndex {
     /// The real part n.
-    pub n: Table,
+    pub n: RealFunction,
     /// The imaginary part k.
-    pub k: Table,
+    pub k: RealFunction,
 }
 
-impl Index {
+impl RefractiveIndex {
     /// The same index at every wavelength.
     pub fn constant(n: f64, k: f64) -> Self {
-        Self { n: Table::constant(n), k: Table::constant(k) }
+        Self { n: RealFunction::constant(n), k: RealFunction::constant(k) }
     }
 
     /// n + ik at the vacuum wavelength `lambda` µm.
@@ -26,6 +26,6 @@ impl Index {
 
     /// The same material with k = 0.
     pub fn without_absorption(&self) -> Self {
-        Self { n: self.n.clone(), k: Table::constant(0.0) }
+        Self { n: self.n.clone(), k: RealFunction::constant(0.0) }
     }
 }

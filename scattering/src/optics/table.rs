@@ -2,11 +2,11 @@
 
 use std::{fmt, sync::Arc};
 
-use crate::spec::Formula;
+use crate::spec::FormulaFn;
 
 /// Scale of the abscissa between two points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Axis {
+pub enum AbscissaScale {
     /// Linear.
     #[default]
     Linear,
@@ -16,7 +16,7 @@ pub enum Axis {
 
 /// How the ordinate goes from one point to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Rise {
+pub enum TableInterpolation {
     /// Straight line.
     #[default]
     Linear,
@@ -30,18 +30,18 @@ pub enum Rise {
 
 /// A real function of one variable.
 #[derive(Clone)]
-pub enum Table {
+pub enum RealFunction {
     /// The same value everywhere.
     Constant(f64),
     /// Points; outside their range the end values are held.
-    Points(Arc<Points>),
+    Points(Arc<TabulatedPoints>),
     /// A formula.
-    Formula(Formula),
+    Formula(FormulaFn),
 }
 
 /// Tabulated points, prepared for interpolation.
 #[derive(Debug)]
-pub struct Points {
+pub struct TabulatedPoints {
     /// Points as given, sorted by (x, y).
     points: Vec<(f64, f64)>,
     /// The first point of the file, whose ordinate its abscissa returns exactly.
@@ -50,11 +50,11 @@ pub struct Points {
     scaled: Vec<(f64, f64)>,
     /// Slopes at the nodes for the splines.
     slopes: Vec<f64>,
-    axis: Axis,
-    rise: Rise,
+    axis: AbscissaScale,
+    rise: TableInterpolation,
 }
 
-impl fmt::Debug for Table {
+impl fmt::Debug for RealFunction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Constant(value) => write!(f, "{value}"),
@@ -64,7 +64,7 @@ impl fmt::Debug for Table {
     }
 }
 
-impl Table {
+impl RealFunction {
     /// The same value everywhere.
     pub fn constant(value: f64) -> Self {
         Self::Constant(value)
@@ -75,7 +75,7 @@ impl Table {
     /// # Panics
     ///
     /// If there are no points.
-    pub fn points(rows: &[(f64, f64)], axis: Axis, rise: Rise) -> Self {
+    pub fn points(rows: &[(f64, f64)], axis: AbscissaScale, rise: TableInterpolation) -> Self {
         let first = *rows.first().expect("a table has at least one point");
         if rows.len() == 1 {
             return Self::Constant(first.1);
@@ -84,17 +84,17 @@ impl Table {
         points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         // A parabola needs three points.
         let rise = match rise {
-            Rise::Spline if points.len() < 3 => Rise::Linear,
-            Rise::LogSpline if points.len() < 3 => Rise::Log,
+            TableInterpolation::Spline if points.len() < 3 => TableInterpolation::Linear,
+            TableInterpolation::LogSpline if points.len() < 3 => TableInterpolation::Log,
             other => other,
         };
         let scaled: Vec<_> =
             points.iter().map(|&(x, y)| (scale_x(axis, x), scale_y(rise, y))).collect();
         let slopes = match rise {
-            Rise::Spline | Rise::LogSpline => parabola_slopes(&scaled),
-            Rise::Linear | Rise::Log => Vec::new(),
+            TableInterpolation::Spline | TableInterpolation::LogSpline => parabola_slopes(&scaled),
+            TableInterpolation::Linear | TableInterpolation::Log => Vec::new(),
         };
-        Self::Points(Arc::new(Points { points, first, scaled, slopes, axis, rise }))
+        Self::Points(Arc::new(TabulatedPoints { points, first, scaled, slopes, axis, rise }))
     }
 
     /// The value at `x`.
@@ -139,7 +139,7 @@ impl Table {
     }
 }
 
-impl Points {
+impl TabulatedPoints {
     fn at(&self, x: f64) -> f64 {
         let last = self.points.len() - 1;
         if x == self.first.0 {
@@ -158,10 +158,10 @@ impl Points {
         let t = (scale_x(self.axis, x) - x0) / h;
         let straight = y0 + (y1 - y0) * t;
         match self.rise {
-            Rise::Linear => straight,
-            Rise::Log => straight.exp(),
-            Rise::Spline => self.hermite(j, t, h),
-            Rise::LogSpline => self.hermite(j, t, h).exp(),
+            TableInterpolation::Linear => straight,
+            TableInterpolation::Log => straight.exp(),
+            TableInterpolation::Spline => self.hermite(j, t, h),
+            TableInterpolation::LogSpline => self.hermite(j, t, h).exp(),
         }
     }
 
@@ -176,17 +176,17 @@ impl Points {
     }
 }
 
-fn scale_x(axis: Axis, x: f64) -> f64 {
+fn scale_x(axis: AbscissaScale, x: f64) -> f64 {
     match axis {
-        Axis::Linear => x,
-        Axis::Log => x.ln(),
+        AbscissaScale::Linear => x,
+        AbscissaScale::Log => x.ln(),
     }
 }
 
-fn scale_y(rise: Rise, y: f64) -> f64 {
+fn scale_y(rise: TableInterpolation, y: f64) -> f64 {
     match rise {
-        Rise::Linear | Rise::Spline => y,
-        Rise::Log | Rise::LogSpline => y.ln(),
+        TableInterpolation::Linear | TableInterpolation::Spline => y,
+        TableInterpolation::Log | TableInterpolation::LogSpline => y.ln(),
     }
 }
 
@@ -205,13 +205,22 @@ fn parabola_slopes(p: &[(f64, f64)]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    fn table(rise: Rise) -> Table {
-        Table::points(&[(1.0, 1.0), (2.0, 4.0), (4.0, 2.0), (5.0, 3.0)], Axis::Linear, rise)
+    fn table(rise: TableInterpolation) -> RealFunction {
+        RealFunction::points(
+            &[(1.0, 1.0), (2.0, 4.0), (4.0, 2.0), (5.0, 3.0)],
+            AbscissaScale::Linear,
+            rise,
+        )
     }
 
     #[test]
     fn end_values_are_held_outside_the_range() {
-        for rise in [Rise::Linear, Rise::Log, Rise::Spline, Rise::LogSpline] {
+        for rise in [
+            TableInterpolation::Linear,
+            TableInterpolation::Log,
+            TableInterpolation::Spline,
+            TableInterpolation::LogSpline,
+        ] {
             assert_eq!(table(rise).at(-3.0), 1.0);
             assert_eq!(table(rise).at(9.0), 3.0);
         }
@@ -219,7 +228,12 @@ mod tests {
 
     #[test]
     fn every_interpolation_passes_through_the_points() {
-        for rise in [Rise::Linear, Rise::Log, Rise::Spline, Rise::LogSpline] {
+        for rise in [
+            TableInterpolation::Linear,
+            TableInterpolation::Log,
+            TableInterpolation::Spline,
+            TableInterpolation::LogSpline,
+        ] {
             for (x, y) in [(1.0, 1.0), (2.0, 4.0), (4.0, 2.0), (5.0, 3.0)] {
                 assert!((table(rise).at(x) - y).abs() < 1e-14);
             }
@@ -228,13 +242,21 @@ mod tests {
 
     #[test]
     fn the_log_axis_is_straight_in_the_logarithm_of_x() {
-        let t = Table::points(&[(1.0, 0.0), (100.0, 2.0)], Axis::Log, Rise::Linear);
+        let t = RealFunction::points(
+            &[(1.0, 0.0), (100.0, 2.0)],
+            AbscissaScale::Log,
+            TableInterpolation::Linear,
+        );
         assert!((t.at(10.0) - 1.0).abs() < 1e-15);
     }
 
     #[test]
     fn the_first_row_of_the_file_wins_at_its_own_abscissa() {
-        let t = Table::points(&[(2.0, 7.0), (2.0, 1.0), (3.0, 0.0)], Axis::Linear, Rise::Linear);
+        let t = RealFunction::points(
+            &[(2.0, 7.0), (2.0, 1.0), (3.0, 0.0)],
+            AbscissaScale::Linear,
+            TableInterpolation::Linear,
+        );
         assert_eq!(t.at(2.0), 7.0);
     }
 }

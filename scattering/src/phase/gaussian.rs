@@ -10,11 +10,11 @@ use std::f64::consts::PI;
 use super::Phase;
 use crate::{
     Defect,
-    spec::{Class, Laws, Param, ParamError, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
     special::gauss,
 };
 
-/// How programs name, parameterize and build a [`Gaussian`] phase function.
+/// How programs name, parameterize and build a [`GaussianPhase`] phase function.
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Gaussian_Phase_Function",
@@ -23,34 +23,44 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         equation: "p = ((1-b) exp(-theta^2/(2w^2)) + b)/(2 pi N)",
         source: "chandrasekhar-1960",
         params: &[&[
-            Param::number("width", "20", "deg", "Width of the Gaussian, its standard deviation"),
-            Param::number("background", "0.1", "1", "Height of the background against the peak"),
+            Parameter::number(
+                "width",
+                "20",
+                "deg",
+                "Width of the GaussianPhase, its standard deviation",
+            ),
+            Parameter::number(
+                "background",
+                "0.1",
+                "1",
+                "Height of the background against the peak",
+            ),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let width = node.number("width").to_radians().abs();
         if !(width > 0.0 && width.is_finite()) {
-            return Err(ParamError::new("width", "a width has to be positive"));
+            return Err(ParameterError::new("width", "a width has to be positive"));
         }
         let b = node.number("background");
         let compat = node.reproduces(Defect::GaussianPhaseSeries);
         let lobe = if compat { series(width) } else { solid_angle(width) };
         let norm = 1.0 / (2.0 * PI * (2.0 * b + (1.0 - b) * lobe));
         let falloff = -0.5 / (width * width);
-        Ok(Box::new(Gaussian { peak: (1.0 - b) * norm, background: b * norm, falloff }))
+        Ok(Box::new(GaussianPhase { peak: (1.0 - b) * norm, background: b * norm, falloff }))
     },
 };
 
 /// A Gaussian lobe on a background.
 #[derive(Clone, Copy, Debug)]
-pub struct Gaussian {
+pub struct GaussianPhase {
     peak: f64,
     background: f64,
     falloff: f64,
 }
 
-impl Phase for Gaussian {
+impl Phase for GaussianPhase {
     fn at_cosine(&self, cos: f64) -> f64 {
         let theta = cos.clamp(-1.0, 1.0).acos();
         self.peak * (self.falloff * theta * theta).exp() + self.background

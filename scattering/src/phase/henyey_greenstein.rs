@@ -12,11 +12,11 @@ use std::f64::consts::FRAC_1_PI;
 
 use super::Phase;
 use crate::{
-    Node,
-    spec::{Class, Laws, Param, ParamError, Spec},
+    ParameterNode,
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a phase function of one [`Lobe`].
+/// How programs name, parameterize and build a phase function of one [`HenyeyGreenstein`].
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Henyey_Greenstein_Phase_Function",
@@ -24,13 +24,13 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         summary: "One lobe with a given mean cosine",
         equation: "p = (1-g^2)/(4 pi (1+g^2-2g cos(theta))^(3/2))",
         source: "henyey-greenstein-1941",
-        params: &[&[Param::number("g", "0.01", "1", "Mean cosine, -1 < g < 1")]],
+        params: &[&[Parameter::number("g", "0.01", "1", "Mean cosine, -1 < g < 1")]],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Lobe::new(asymmetry(node, "g")?))),
+    build: |node| Ok(Box::new(HenyeyGreenstein::new(asymmetry(node, "g")?))),
 };
 
-/// How programs name, parameterize and build a [`TwoLobes`] phase function.
+/// How programs name, parameterize and build a [`DoubleHenyeyGreenstein`] phase function.
 pub const DOUBLE: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Double_Henyey_Greenstein_Phase_Function",
@@ -39,46 +39,51 @@ pub const DOUBLE: Spec<dyn Phase> = Spec {
         equation: "p = |(1+c)/2 HG(g1) + (1-c)/2 HG(g2)|",
         source: "henyey-greenstein-1941",
         params: &[&[
-            Param::number("g1", "0.01", "1", "Mean cosine of the first lobe, -1 < g1 < 1"),
-            Param::number("g2", "0.01", "1", "Mean cosine of the second lobe, -1 < g2 < 1"),
-            Param::number("c", "0.1", "1", "Balance of the lobes: 1 only the first, -1 the second"),
+            Parameter::number("g1", "0.01", "1", "Mean cosine of the first lobe, -1 < g1 < 1"),
+            Parameter::number("g2", "0.01", "1", "Mean cosine of the second lobe, -1 < g2 < 1"),
+            Parameter::number(
+                "c",
+                "0.1",
+                "1",
+                "Balance of the lobes: 1 only the first, -1 the second",
+            ),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let c = node.number("c");
-        Ok(Box::new(TwoLobes {
-            first: Lobe::new(asymmetry(node, "g1")?),
-            second: Lobe::new(asymmetry(node, "g2")?),
+        Ok(Box::new(DoubleHenyeyGreenstein {
+            first: HenyeyGreenstein::new(asymmetry(node, "g1")?),
+            second: HenyeyGreenstein::new(asymmetry(node, "g2")?),
             shares: (0.5 * (1.0 + c), 0.5 * (1.0 - c)),
         }))
     },
 };
 
 /// The mean cosine `name`, strictly between −1 and 1.
-pub(super) fn asymmetry(node: &Node, name: &str) -> Result<f64, ParamError> {
+pub(super) fn asymmetry(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let g = node.number(name);
     if g.abs() < 1.0 {
         return Ok(g);
     }
-    Err(ParamError::new(name, format!("{g} is not between -1 and 1")))
+    Err(ParameterError::new(name, format!("{g} is not between -1 and 1")))
 }
 
 /// One Henyey–Greenstein lobe.
 #[derive(Clone, Copy, Debug)]
-pub struct Lobe {
+pub struct HenyeyGreenstein {
     g: f64,
     /// (1 − g²)/4π.
     norm: f64,
 }
 
-impl Lobe {
+impl HenyeyGreenstein {
     fn new(g: f64) -> Self {
         Self { g, norm: 0.25 * FRAC_1_PI * (1.0 - g * g) }
     }
 }
 
-impl Phase for Lobe {
+impl Phase for HenyeyGreenstein {
     fn at_cosine(&self, cos: f64) -> f64 {
         let d = 1.0 + self.g * self.g - 2.0 * self.g * cos;
         self.norm / (d * d.sqrt())
@@ -87,13 +92,13 @@ impl Phase for Lobe {
 
 /// Two Henyey–Greenstein lobes.
 #[derive(Clone, Copy, Debug)]
-pub struct TwoLobes {
-    first: Lobe,
-    second: Lobe,
+pub struct DoubleHenyeyGreenstein {
+    first: HenyeyGreenstein,
+    second: HenyeyGreenstein,
     shares: (f64, f64),
 }
 
-impl Phase for TwoLobes {
+impl Phase for DoubleHenyeyGreenstein {
     fn at_cosine(&self, cos: f64) -> f64 {
         let (a, b) = self.shares;
         (a * self.first.at_cosine(cos) + b * self.second.at_cosine(cos)).abs()
@@ -110,7 +115,7 @@ mod tests {
     #[test]
     fn g_is_the_mean_cosine() {
         for g in [-0.6, 0.0, 0.3, 0.8] {
-            let lobe = Lobe::new(g);
+            let lobe = HenyeyGreenstein::new(g);
             let mean = gauss::integrate(200, -1.0, 1.0, |c| TAU * c * lobe.at_cosine(c));
             assert!((mean - g).abs() < 1e-12, "{mean} {g}");
         }

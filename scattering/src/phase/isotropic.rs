@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_1_PI;
 use super::Phase;
 use crate::spec::{Class, Laws, Spec};
 
-/// How programs name and build an [`Isotropic`] phase function.
+/// How programs name and build an [`IsotropicPhase`] phase function.
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Isotropic_Phase_Function",
@@ -16,14 +16,14 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         params: &[],
         laws: Laws::NONE,
     },
-    build: |_| Ok(Box::new(Isotropic)),
+    build: |_| Ok(Box::new(IsotropicPhase)),
 };
 
 /// Isotropic scattering.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Isotropic;
+pub struct IsotropicPhase;
 
-impl Phase for Isotropic {
+impl Phase for IsotropicPhase {
     fn at_cosine(&self, _: f64) -> f64 {
         0.25 * FRAC_1_PI
     }

@@ -11,24 +11,29 @@ use std::f64::consts::FRAC_1_PI;
 use super::Phase;
 use crate::{
     Defect,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`Legendre`] phase function.
+/// How programs name, parameterize and build a [`LegendrePhase`] phase function.
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Legendre_Phase_Function",
         parent: "Phase_Function",
-        summary: "Six Legendre coefficients",
+        summary: "Six LegendrePhase coefficients",
         equation: "p = sum (2l+1) c_l P_l(cos(theta))/(4 pi)",
         source: "chandrasekhar-1960",
         params: &[&[
-            Param::number("c0", "1", "1", "Coefficient of P_0: the integral over all directions"),
-            Param::number("c1", "0.65", "1", "Coefficient of P_1: the mean cosine"),
-            Param::number("c2", "0.42", "1", "Coefficient of P_2"),
-            Param::number("c3", "0", "1", "Coefficient of P_3"),
-            Param::number("c4", "0", "1", "Coefficient of P_4"),
-            Param::number("c5", "0", "1", "Coefficient of P_5"),
+            Parameter::number(
+                "c0",
+                "1",
+                "1",
+                "Coefficient of P_0: the integral over all directions",
+            ),
+            Parameter::number("c1", "0.65", "1", "Coefficient of P_1: the mean cosine"),
+            Parameter::number("c2", "0.42", "1", "Coefficient of P_2"),
+            Parameter::number("c3", "0", "1", "Coefficient of P_3"),
+            Parameter::number("c4", "0", "1", "Coefficient of P_4"),
+            Parameter::number("c5", "0", "1", "Coefficient of P_5"),
         ]],
         laws: Laws::NONE,
     },
@@ -38,18 +43,18 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         for (l, term) in terms.iter_mut().enumerate() {
             *term *= norm * (2 * l + 1) as f64;
         }
-        Ok(Box::new(Legendre { terms }))
+        Ok(Box::new(LegendrePhase { terms }))
     },
 };
 
 /// A Legendre series.
 #[derive(Clone, Copy, Debug)]
-pub struct Legendre {
+pub struct LegendrePhase {
     /// (2l+1) c_l with the norm.
     terms: [f64; 6],
 }
 
-impl Phase for Legendre {
+impl Phase for LegendrePhase {
     fn at_cosine(&self, cos: f64) -> f64 {
         let (mut below, mut p, mut sum) = (0.0, 1.0, 0.0);
         for (l, term) in self.terms.iter().enumerate() {

@@ -10,7 +10,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name and build a [`Rayleigh`] phase function.
+/// How programs name and build a [`RayleighPhase`] phase function.
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Rayleigh_Phase_Function",
@@ -23,17 +23,17 @@ pub const SPEC: Spec<dyn Phase> = Spec {
     },
     build: |node| {
         let compat = node.reproduces(Defect::PhaseNorm);
-        Ok(Box::new(Rayleigh { norm: 0.75 * if compat { 1.0 } else { 0.25 * FRAC_1_PI } }))
+        Ok(Box::new(RayleighPhase { norm: 0.75 * if compat { 1.0 } else { 0.25 * FRAC_1_PI } }))
     },
 };
 
 /// Scalar Rayleigh scattering.
 #[derive(Clone, Copy, Debug)]
-pub struct Rayleigh {
+pub struct RayleighPhase {
     norm: f64,
 }
 
-impl Phase for Rayleigh {
+impl Phase for RayleighPhase {
     fn at_cosine(&self, cos: f64) -> f64 {
         self.norm * (1.0 + cos * cos)
     }

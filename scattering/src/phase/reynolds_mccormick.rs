@@ -13,11 +13,11 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 use super::{Phase, henyey_greenstein::asymmetry};
 use crate::{
-    Defect, Node,
-    spec::{Class, Laws, Param, ParamError, Spec},
+    Defect, ParameterNode,
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a phase function of one [`Lobe`].
+/// How programs name, parameterize and build a phase function of one [`ReynoldsMcCormick`].
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Reynolds_McCormick_Phase_Function",
@@ -28,10 +28,10 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         params: &[LOBE],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Lobe::read(node)?)),
+    build: |node| Ok(Box::new(ReynoldsMcCormick::read(node)?)),
 };
 
-/// How programs name, parameterize and build a [`TwoLobes`] phase function.
+/// How programs name, parameterize and build a [`DoubleReynoldsMcCormick`] phase function.
 pub const DOUBLE: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Double_Reynolds_McCormick_Phase_Function",
@@ -41,35 +41,35 @@ pub const DOUBLE: Spec<dyn Phase> = Spec {
         source: "reynolds-mccormick-1980",
         params: &[
             LOBE,
-            &[Param::number("c", "0.1", "1", "Balance: 1 only the lobe of g, -1 that of -g")],
+            &[Parameter::number("c", "0.1", "1", "Balance: 1 only the lobe of g, -1 that of -g")],
         ],
         laws: Laws::NONE,
     },
     build: |node| {
         let c = node.number("c");
-        let lobe = Lobe::read(node)?;
-        Ok(Box::new(TwoLobes { lobe, shares: (0.5 * (1.0 + c), 0.5 * (1.0 - c)) }))
+        let lobe = ReynoldsMcCormick::read(node)?;
+        Ok(Box::new(DoubleReynoldsMcCormick { lobe, shares: (0.5 * (1.0 + c), 0.5 * (1.0 - c)) }))
     },
 };
 
-const LOBE: &[Param] = &[
-    Param::number("g", "0.01", "1", "Asymmetry, -1 < g < 1"),
-    Param::number("alpha", "0.5", "1", "Exponent; 0.5 is Henyey-Greenstein"),
+const LOBE: &[Parameter] = &[
+    Parameter::number("g", "0.01", "1", "Asymmetry, -1 < g < 1"),
+    Parameter::number("alpha", "0.5", "1", "Exponent; 0.5 is Henyey-Greenstein"),
 ];
 
 /// One Reynolds–McCormick lobe.
 #[derive(Clone, Copy, Debug)]
-pub struct Lobe {
+pub struct ReynoldsMcCormick {
     g: f64,
     alpha: f64,
     norm: f64,
 }
 
-impl Lobe {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+impl ReynoldsMcCormick {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let (g, alpha) = (asymmetry(node, "g")?, node.number("alpha"));
         if !alpha.is_finite() {
-            return Err(ParamError::new("alpha", format!("{alpha} is not an exponent")));
+            return Err(ParameterError::new("alpha", format!("{alpha} is not an exponent")));
         }
         let compat = node.reproduces(Defect::ReynoldsNorm);
         let norm = if compat { compat_norm(g, alpha) } else { norm(g, alpha) };
@@ -90,7 +90,7 @@ fn compat_norm(g: f64, alpha: f64) -> f64 {
     alpha * g / PI * (1.0 - g2).powf(twice) / ((1.0 + g2).powf(twice) - (1.0 - g2).powf(twice))
 }
 
-impl Phase for Lobe {
+impl Phase for ReynoldsMcCormick {
     fn at_cosine(&self, cos: f64) -> f64 {
         self.norm * (1.0 + self.g * self.g - 2.0 * self.g * cos).powf(-self.alpha - 1.0)
     }
@@ -98,12 +98,12 @@ impl Phase for Lobe {
 
 /// A lobe and its image in the plane across the beam.
 #[derive(Clone, Copy, Debug)]
-pub struct TwoLobes {
-    lobe: Lobe,
+pub struct DoubleReynoldsMcCormick {
+    lobe: ReynoldsMcCormick,
     shares: (f64, f64),
 }
 
-impl Phase for TwoLobes {
+impl Phase for DoubleReynoldsMcCormick {
     fn at_cosine(&self, cos: f64) -> f64 {
         let (a, b) = self.shares;
         (a * self.lobe.at_cosine(cos) + b * self.lobe.at_cosine(-cos)).abs()

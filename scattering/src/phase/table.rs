@@ -2,8 +2,8 @@
 
 use super::Phase;
 use crate::{
-    optics::Table,
-    spec::{Class, Laws, Param, Spec},
+    optics::RealFunction,
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`TablePhase`].
@@ -14,7 +14,7 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         summary: "Tabulated against the scattering angle",
         equation: "p = table(theta)",
         source: "chandrasekhar-1960",
-        params: &[&[Param::table(
+        params: &[&[Parameter::table(
             "table",
             "0.07957747",
             "1/sr",
@@ -28,7 +28,7 @@ pub const SPEC: Spec<dyn Phase> = Spec {
 /// A tabulated phase function.
 #[derive(Clone, Debug)]
 pub struct TablePhase {
-    table: Table,
+    table: RealFunction,
 }
 
 impl Phase for TablePhase {

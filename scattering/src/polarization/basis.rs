@@ -39,7 +39,7 @@ impl Basis {
 
 /// Two unit vectors across a beam; `first` takes the place of s, `second` that of p.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct TransverseFrame {
     /// The direction in the place of s.
     pub first: DVec3,
     /// The direction in the place of p.
@@ -68,7 +68,7 @@ pub(crate) fn is_normal(k: DVec3) -> bool {
     k.x.abs() <= PARALLEL && k.y.abs() <= PARALLEL
 }
 
-impl Frame {
+impl TransverseFrame {
     /// (s, p) of the beam `k`: s = ẑ × k normalized, p = k × s; s = ŷ along the normal.
     pub fn psps(k: DVec3) -> Self {
         let s = if is_normal(k) { DVec3::Y } else { perp(DVec3::Z, k) };
@@ -113,27 +113,29 @@ impl Frame {
 /// The two beams of an event: where they go, and their s, which k alone does not tell where it
 /// lies along the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Beams {
+pub struct BeamPair {
     /// Propagation of the incident and of the scattered beam.
     pub k: [DVec3; 2],
     /// s of both.
     pub s: [DVec3; 2],
 }
 
-impl Beams {
+impl BeamPair {
     /// The frames of `basis` for both beams.
-    fn frames(&self, basis: Basis) -> [Frame; 2] {
+    fn frames(&self, basis: Basis) -> [TransverseFrame; 2] {
         let [k_i, k_s] = self.k;
         match basis {
-            Basis::Psps => [Frame::with_s(k_i, self.s[0]), Frame::with_s(k_s, self.s[1])],
-            Basis::Xyxy => self.k.map(Frame::xyxy),
-            Basis::Plane => self.k.map(|k| Frame::plane(k, k_i, k_s)),
+            Basis::Psps => {
+                [TransverseFrame::with_s(k_i, self.s[0]), TransverseFrame::with_s(k_s, self.s[1])]
+            }
+            Basis::Xyxy => self.k.map(TransverseFrame::xyxy),
+            Basis::Plane => self.k.map(|k| TransverseFrame::plane(k, k_i, k_s)),
         }
     }
 }
 
 /// The matrix `m`, given in basis `from`, in basis `to`, for these beams.
-pub fn change_basis(m: Mueller, from: Basis, to: Basis, beams: &Beams) -> Mueller {
+pub fn change_basis(m: Mueller, from: Basis, to: Basis, beams: &BeamPair) -> Mueller {
     if from == to {
         return m;
     }

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul};
 use num_complex::Complex64;
 
 use super::Mueller;
-use crate::lanes::{Complex, Real, Vectors, WIDTH};
+use crate::lanes::{Complex, Real, SimdLevel, WIDTH};
 
 /// A Jones matrix, output × input: `[[ss, ps], [sp, pp]]`, where `ps` turns p into s and `sp`
 /// turns s into p.
@@ -73,10 +73,10 @@ pub(crate) fn elements<R: Real>([a, b, c, d]: [Complex<R>; 4]) -> [[R; 4]; 4] {
 
 /// The Mueller matrices of the Jones matrices with the elements ss, ps, sp, pp, times `weight`.
 #[inline(always)]
-pub(crate) fn muellers<V: Vectors>(
+pub(crate) fn muellers<V: SimdLevel>(
     vectors: V,
-    jones: [Complex<V::Real>; 4],
-    weight: V::Real,
+    jones: [Complex<V::Vector>; 4],
+    weight: V::Vector,
     out: &mut [Mueller; WIDTH],
 ) {
     for (i, row) in elements(jones).into_iter().enumerate() {

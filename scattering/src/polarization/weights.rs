@@ -11,7 +11,7 @@ use crate::lanes::WIDTH;
 
 /// The weights of directions, in their order.
 #[derive(Clone, Debug, Default)]
-pub struct Weights {
+pub struct DirectionWeights {
     /// Weights, without a unit or sr.
     pub weight: Vec<f64>,
     /// cos 2β, β the turn of the sensitivity.
@@ -20,7 +20,7 @@ pub struct Weights {
     pub sin2b: Vec<f64>,
 }
 
-impl Weights {
+impl DirectionWeights {
     /// Adds a direction with this weight, cos 2β and sin 2β.
     pub fn push(&mut self, weight: f64, [cos2b, sin2b]: [f64; 2]) {
         self.weight.push(weight);
@@ -49,21 +49,21 @@ impl Weights {
 
     /// All of them, for matrices of light that leaves upwards, or with `sign` = −1 downwards,
     /// where the sensitivity turns the other way.
-    pub fn signed(&self, sign: f64) -> Signed<'_> {
-        Signed { weight: &self.weight, cos2b: &self.cos2b, sin2b: &self.sin2b, sign }
+    pub fn signed(&self, sign: f64) -> SignedWeights<'_> {
+        SignedWeights { weight: &self.weight, cos2b: &self.cos2b, sin2b: &self.sin2b, sign }
     }
 }
 
 /// The weights of a part of the directions.
 #[derive(Clone, Copy, Debug)]
-pub struct Signed<'a> {
+pub struct SignedWeights<'a> {
     pub(crate) weight: &'a [f64],
     pub(crate) cos2b: &'a [f64],
     pub(crate) sin2b: &'a [f64],
     pub(crate) sign: f64,
 }
 
-impl Signed<'_> {
+impl SignedWeights<'_> {
     /// Adds w R(β)ᵀ `m` of direction `k` to `sum`.
     #[inline]
     pub fn add(&self, k: usize, m: &Mueller, sum: &mut Mueller) {

@@ -9,16 +9,16 @@
 //! p_l (`plmax`) and p_c (`pcmax`) are the greatest linear and circular polarizations, s skews the
 //! circular one. Light has no more polarization than intensity where
 //! P_10² + P_22² + P_32² ≤ P_00², which is p_l² + p_c² ≤ 1 without skew; elsewhere a build notes
-//! [`Limit::Unrealizable`].
+//! [`ModelLimit::Unrealizable`].
 //!
 //! A. D. Code and B. A. Whitney, Astrophys. J. 441, 400 (1995).
 
 use std::f64::consts::PI;
 
-use super::{PolarizedPhase, SCALAR, Scalar};
+use super::{PolarizedPhase, SCALAR, ScalarPhase};
 use crate::{
-    Limit, Mueller,
-    spec::{Class, Laws, Param, Spec},
+    ModelLimit, Mueller,
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`CodeWhitney`] phase matrix.
@@ -32,22 +32,22 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         params: &[
             SCALAR,
             &[
-                Param::number("plmax", "1", "1", "Greatest linear polarization"),
-                Param::number("pcmax", "0", "1", "Greatest circular polarization"),
-                Param::number("s", "0", "1", "Skew of the circular polarization"),
+                Parameter::number("plmax", "1", "1", "Greatest linear polarization"),
+                Parameter::number("pcmax", "0", "1", "Greatest circular polarization"),
+                Parameter::number("s", "0", "1", "Skew of the circular polarization"),
             ],
         ],
         laws: Laws::NONE,
     },
     build: |node| {
         let phase = CodeWhitney {
-            scalar: Scalar::read(node)?,
+            scalar: ScalarPhase::read(node)?,
             linear: node.number("plmax"),
             circular: node.number("pcmax"),
             skew: node.number("s"),
         };
         if !phase.is_realizable() {
-            node.passes(Limit::Unrealizable);
+            node.passes(ModelLimit::Unrealizable);
         }
         Ok(Box::new(phase))
     },
@@ -55,7 +55,7 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
 
 /// A phase matrix with Rayleigh-like polarization.
 struct CodeWhitney {
-    scalar: Scalar,
+    scalar: ScalarPhase,
     linear: f64,
     circular: f64,
     skew: f64,
@@ -109,19 +109,19 @@ fn polarization(c: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Node, Value, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, spec};
 
     #[test]
     fn more_polarization_than_light_is_told() {
         let told = |params: &[(&str, f64)]| {
             let node = params
                 .iter()
-                .fold(Node::with_defaults(&SPEC.class, Mode::Sound), |node, (name, x)| {
-                    node.with(name, Value::Number(*x)).unwrap()
+                .fold(ParameterNode::with_defaults(&SPEC.class, Mode::Sound), |node, (name, x)| {
+                    node.with(name, ParameterValue::Number(*x)).unwrap()
                 });
             spec::build::<dyn PolarizedPhase>(&node).unwrap();
             let met = node.met.lock().unwrap();
-            met.contains(&Limit::Unrealizable.into())
+            met.contains(&ModelLimit::Unrealizable.into())
         };
         assert!(!told(&[]));
         assert!(!told(&[("plmax", 0.8), ("pcmax", 0.6)]));

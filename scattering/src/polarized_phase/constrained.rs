@@ -8,10 +8,10 @@
 
 use std::f64::consts::FRAC_PI_3;
 
-use super::{PolarizedPhase, SCALAR, Scalar};
+use super::{PolarizedPhase, SCALAR, ScalarPhase};
 use crate::{
     Mueller,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`Constrained`] phase matrix.
@@ -46,7 +46,7 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
     build: |node| {
         let m = |name| node.number(name);
         Ok(Box::new(Constrained {
-            scalar: Scalar::read(node)?,
+            scalar: ScalarPhase::read(node)?,
             m11: Spline::through([m("m11_0"), m("m11_60"), m("m11_120"), m("m11_180")]),
             m22: Spline::through([m("m11_0"), m("m22_60"), m("m22_120"), -m("m11_180")]),
             m33: Spline::through([m("m33_0"), m("m33_60"), m("m33_120"), m("m33_180")]),
@@ -56,13 +56,13 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
     },
 };
 
-const fn value(name: &'static str, default: &'static str, doc: &'static str) -> Param {
-    Param::number(name, default, "1", doc)
+const fn value(name: &'static str, default: &'static str, doc: &'static str) -> Parameter {
+    Parameter::number(name, default, "1", doc)
 }
 
 /// A phase matrix whose elements are splines.
 struct Constrained {
-    scalar: Scalar,
+    scalar: ScalarPhase,
     m11: Spline,
     m22: Spline,
     m33: Spline,
@@ -72,7 +72,7 @@ struct Constrained {
 
 impl PolarizedPhase for Constrained {
     fn at_cosine(&self, cos: f64) -> Mueller {
-        let at = Place::at(cos.clamp(-1.0, 1.0).acos());
+        let at = SplinePosition::at(cos.clamp(-1.0, 1.0).acos());
         let p = self.scalar.phase.at_cosine(cos);
         let [m11, m22, m33, l, v] =
             [&self.m11, &self.m22, &self.m33, &self.m10, &self.m23].map(|s| p * s.value(&at));
@@ -97,12 +97,12 @@ struct Spline {
 }
 
 /// A place between two nodes with the four weights of a cubic there.
-struct Place {
+struct SplinePosition {
     node: usize,
     weights: [f64; 4],
 }
 
-impl Place {
+impl SplinePosition {
     fn at(theta: f64) -> Self {
         let node = ((theta / FRAC_PI_3) as usize).min(2);
         let t = theta / FRAC_PI_3 - node as f64;
@@ -119,7 +119,7 @@ impl Spline {
         Self { y, m: [0.0, (4.0 * b1 - b2) / 15.0, (4.0 * b2 - b1) / 15.0, 0.0] }
     }
 
-    fn value(&self, at: &Place) -> f64 {
+    fn value(&self, at: &SplinePosition) -> f64 {
         let (j, w) = (at.node, at.weights);
         self.y[j] * w[0] + self.m[j] * w[1] + self.y[j + 1] * w[2] + self.m[j + 1] * w[3]
     }
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn the_spline_passes_through_its_values_with_continuous_curvature() {
         let s = Spline::through([1.0, -0.3, 0.4, 0.2]);
-        let at = |t: f64| s.value(&Place::at(t));
+        let at = |t: f64| s.value(&SplinePosition::at(t));
         for (j, y) in s.y.iter().enumerate() {
             assert!((at(j as f64 * FRAC_PI_3) - y).abs() < 1e-14);
         }

@@ -12,14 +12,14 @@ use num_complex::Complex64;
 
 use super::PolarizedPhase;
 use crate::{
-    Defect, Mueller, Node,
+    Defect, Mueller, ParameterNode,
     scatterer::{
-        FREE_SPACE, Round, Surroundings,
+        FREE_SPACE, HostMedium, SphericalScatterer,
         mie::Mie,
-        series::{AngularFunctions, Series, terms},
+        series::{AngularFunctions, MieSeries, terms},
     },
     size::{self, VolumeSize},
-    spec::{Class, Family, Laws, Param, ParamError, Spec},
+    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
 };
 
 /// How programs name, parameterize and build a [`DistributedMie`] phase matrix.
@@ -32,18 +32,23 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         source: "deirmendjian-1969",
         params: &[&[
             FREE_SPACE[0],
-            Param::index("medium", "(1.33,0)", "Index of the surrounding medium"),
-            Param::index("sphere", "(1,0)", "Index of the spheres"),
-            Param::member(
+            Parameter::index("medium", "(1.33,0)", "Index of the surrounding medium"),
+            Parameter::index("sphere", "(1,0)", "Index of the spheres"),
+            Parameter::member(
                 "distribution",
                 Family::VolumeSize,
                 "VolumeParticleSizeDistribution",
                 "Regular_VolumeParticleSizeDistribution",
                 "Number of spheres per volume and diameter",
             ),
-            Param::number("integralStart", "0.1", "um", "Smallest diameter"),
-            Param::number("integralEnd", "100", "um", "Largest diameter"),
-            Param::number("integralStep", "0.01", "1", "Step of the diameter over the diameter"),
+            Parameter::number("integralStart", "0.1", "um", "Smallest diameter"),
+            Parameter::number("integralEnd", "100", "um", "Largest diameter"),
+            Parameter::number(
+                "integralStep",
+                "0.01",
+                "1",
+                "Step of the diameter over the diameter",
+            ),
         ]],
         laws: Laws::NONE,
     },
@@ -56,7 +61,7 @@ const MOST_TERMS: usize = 30_000_000;
 /// A suspension of spheres of many sizes.
 struct DistributedMie {
     /// Spheres with their numbers per volume.
-    spheres: Vec<(f64, Series)>,
+    spheres: Vec<(f64, MieSeries)>,
     /// Terms of the longest series.
     longest: usize,
     /// 1/(k² Σ w C_sca).
@@ -66,8 +71,8 @@ struct DistributedMie {
 }
 
 impl DistributedMie {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let around = Surroundings::read(node)?;
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let around = HostMedium::read(node)?;
         let m = around.relative_index(node, "sphere")?;
         let numbers = node.member::<dyn VolumeSize>("distribution")?;
         let k = around.wave_number();
@@ -87,7 +92,10 @@ impl DistributedMie {
             spheres.push((number, sphere.into_series()));
         }
         if !(scattering > 0.0) {
-            return Err(ParamError::new("distribution", "no sphere of these diameters scatters"));
+            return Err(ParameterError::new(
+                "distribution",
+                "no sphere of these diameters scatters",
+            ));
         }
         let norm = 1.0 / (k * k * scattering);
         let n = around.medium.re;
@@ -98,19 +106,22 @@ impl DistributedMie {
 }
 
 /// Diameters with their widths, unless they are too many.
-fn ladder(node: &Node, k: f64) -> Result<impl Iterator<Item = (f64, f64)> + use<>, ParamError> {
+fn ladder(
+    node: &ParameterNode,
+    k: f64,
+) -> Result<impl Iterator<Item = (f64, f64)> + use<>, ParameterError> {
     let [start, end, step] =
         ["integralStart", "integralEnd", "integralStep"].map(|name| node.number(name));
     if !size::is_ladder(start, end, step) {
         let problem = format!("{start} um to {end} um in steps of {step} is no range of diameters");
-        return Err(ParamError::new("integralStep", problem));
+        return Err(ParameterError::new("integralStep", problem));
     }
     let rungs = || size::ladder(start, end, step);
     let mut total = 0;
     for (d, _) in rungs() {
         total += terms(0.5 * k * d);
         if total > MOST_TERMS {
-            return Err(ParamError::new("integralEnd", "too many and too large spheres"));
+            return Err(ParameterError::new("integralEnd", "too many and too large spheres"));
         }
     }
     Ok(rungs())
@@ -146,12 +157,12 @@ mod tests {
     use std::f64::consts::{PI, TAU};
 
     use super::*;
-    use crate::{Mode, Value, spec, special::gauss};
+    use crate::{Mode, ParameterValue, spec, special::gauss};
 
-    fn build(mode: Mode) -> Result<Box<dyn PolarizedPhase>, ParamError> {
-        let node = Node::with_defaults(&SPEC.class, mode)
-            .with("integralEnd", Value::Number(3.0))?
-            .with("integralStep", Value::Number(0.1))?;
+    fn build(mode: Mode) -> Result<Box<dyn PolarizedPhase>, ParameterError> {
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("integralEnd", ParameterValue::Number(3.0))?
+            .with("integralStep", ParameterValue::Number(0.1))?;
         spec::build::<dyn PolarizedPhase>(&node)
     }
 
@@ -177,8 +188,8 @@ mod tests {
             ("integralStart", -1.0, "integralStep"),
             ("integralEnd", 1e9, "integralEnd"),
         ] {
-            let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-                .with(name, Value::Number(value))
+            let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+                .with(name, ParameterValue::Number(value))
                 .unwrap();
             assert_eq!((SPEC.build)(&node).err().unwrap().parameter, blamed);
         }

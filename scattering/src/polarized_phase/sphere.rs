@@ -14,8 +14,8 @@ use std::f64::consts::{PI, TAU};
 use super::PolarizedPhase;
 use crate::{
     Defect, Jones, Mueller,
-    scatterer::{CrossSections, Round, Scatterer},
-    spec::{Class, Family, Laws, Param, ParamError, Spec},
+    scatterer::{CrossSections, Scatterer, SphericalScatterer},
+    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
 };
 
 /// How programs name, parameterize and build a suspension of equal [`Spheres`].
@@ -27,25 +27,28 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         equation: "P = M(diag(S2,S1))/(k^2 Csca), kappa_s = N Csca, kappa_a = N (Cext-Csca)",
         source: "bohren-huffman-1983",
         params: &[&[
-            Param::member(
+            Parameter::member(
                 "scatterer",
                 Family::Scatterer,
                 "SphericalScatterer",
                 "MieScatterer",
                 "The sphere; its lambda and medium are its own",
             ),
-            Param::number("volume_density", "1E-4", "1/um^3", "Number of spheres per volume"),
+            Parameter::number("volume_density", "1E-4", "1/um^3", "Number of spheres per volume"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let particle = node.member::<dyn Scatterer>("scatterer")?;
-        let Some(cross) = particle.round().and_then(Round::cross_sections) else {
-            return Err(ParamError::new("scatterer", "not a sphere of an isotropic material"));
+        let Some(cross) = particle.round().and_then(SphericalScatterer::cross_sections) else {
+            return Err(ParameterError::new("scatterer", "not a sphere of an isotropic material"));
         };
         let density = node.number("volume_density");
         if !(density > 0.0 && density.is_finite()) {
-            return Err(ParamError::new("volume_density", format!("{density} is not positive")));
+            return Err(ParameterError::new(
+                "volume_density",
+                format!("{density} is not positive"),
+            ));
         }
         let compat = node.reproduces(Defect::SpherePhaseMedium);
         Ok(Box::new(Spheres::new(particle, cross, density, compat)))
@@ -121,16 +124,16 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{Mode, Node, Value, optics::Index, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, optics::RefractiveIndex, spec};
 
     fn build(mode: Mode, scatterer: &str) -> Box<dyn PolarizedPhase> {
-        let index = |n, k| Value::Index(Index::constant(n, k));
-        let inner = Node::with_defaults(spec::find_class(scatterer).unwrap(), mode)
+        let index = |n, k| ParameterValue::Index(RefractiveIndex::constant(n, k));
+        let inner = ParameterNode::with_defaults(spec::find_class(scatterer).unwrap(), mode)
             .with("medium", index(1.5, 0.0))
             .and_then(|node| node.with("sphere", index(1.6, 0.01)))
             .unwrap();
-        let node = Node::with_defaults(&SPEC.class, mode)
-            .with("scatterer", Value::Member(Arc::new(inner)))
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("scatterer", ParameterValue::Member(Arc::new(inner)))
             .unwrap();
         spec::build::<dyn PolarizedPhase>(&node).unwrap()
     }
@@ -157,9 +160,9 @@ mod tests {
     #[test]
     fn chiral_spheres_are_refused() {
         let class = spec::find_class("Optically_Active_Sphere_Scatterer").unwrap();
-        let inner = Node::with_defaults(class, Mode::Sound);
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-            .with("scatterer", Value::Member(Arc::new(inner)))
+        let inner = ParameterNode::with_defaults(class, Mode::Sound);
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+            .with("scatterer", ParameterValue::Member(Arc::new(inner)))
             .unwrap();
         assert_eq!((SPEC.build)(&node).err().unwrap().parameter, "scatterer");
     }

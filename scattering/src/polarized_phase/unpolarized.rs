@@ -1,6 +1,6 @@
 //! Phase matrix that depolarizes completely: P = p(θ) diag(1, 0, 0, 0).
 
-use super::{PolarizedPhase, SCALAR, Scalar};
+use super::{PolarizedPhase, SCALAR, ScalarPhase};
 use crate::{
     Mueller,
     spec::{Class, Laws, Spec},
@@ -17,11 +17,11 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         params: &[SCALAR],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Unpolarized(Scalar::read(node)?))),
+    build: |node| Ok(Box::new(Unpolarized(ScalarPhase::read(node)?))),
 };
 
 /// A phase matrix that depolarizes completely.
-struct Unpolarized(Scalar);
+struct Unpolarized(ScalarPhase);
 
 impl PolarizedPhase for Unpolarized {
     fn at_cosine(&self, cos: f64) -> Mueller {

@@ -10,7 +10,7 @@
 
 use crate::{
     psd::{Psd, strength},
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build an [`Abc`].
@@ -22,15 +22,15 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = A/(1+(B f)^2)^(C/2)",
         source: "church-1991",
         params: &[&[
-            Param::number("A", "0.01", "um^4", "Density at zero frequency"),
-            Param::number("B", "362", "um", "Correlation length"),
-            Param::number("C", "2.5", "1", "Exponent of the fall"),
+            Parameter::number("A", "0.01", "um^4", "Density at zero frequency"),
+            Parameter::number("B", "362", "um", "Correlation length"),
+            Parameter::number("C", "2.5", "1", "Exponent of the fall"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let (b, c) = (node.number("B"), node.number("C"));
-        Ok(Box::new(Abc { a: strength(node, "A")?, b2: b * b, power: Power::new(-0.5 * c) }))
+        Ok(Box::new(Abc { a: strength(node, "A")?, b2: b * b, power: AbcExponent::new(-0.5 * c) }))
     },
 };
 
@@ -39,18 +39,18 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 pub struct Abc {
     a: f64,
     b2: f64,
-    power: Power,
+    power: AbcExponent,
 }
 
 /// An exponent; the usual ones are multiples of a quarter, for which two square roots and a few
 /// products do.
 #[derive(Clone, Copy, Debug)]
-enum Power {
+enum AbcExponent {
     Quarters(i32),
     Any(f64),
 }
 
-impl Power {
+impl AbcExponent {
     /// The largest number of quarters: so few products keep 14 digits.
     const MOST: f64 = 16.0;
 
@@ -87,13 +87,16 @@ mod tests {
     fn multiples_of_a_quarter_are_the_powers_of_the_standard_library() {
         for quarters in -20_i32..=20 {
             let power = 0.25 * f64::from(quarters);
-            assert_eq!(matches!(Power::new(power), Power::Quarters(_)), quarters.abs() <= 16);
+            assert_eq!(
+                matches!(AbcExponent::new(power), AbcExponent::Quarters(_)),
+                quarters.abs() <= 16
+            );
             for x in [1.0, 1.7, 37.0, 2.5e9] {
-                let (got, expected) = (Power::new(power).of(x), x.powf(power));
+                let (got, expected) = (AbcExponent::new(power).of(x), x.powf(power));
                 assert!((got - expected).abs() <= 1e-14 * expected, "{x}^{power}: {got:e}");
             }
         }
-        assert!(matches!(Power::new(0.3), Power::Any(_)));
-        assert!(Power::new(f64::NAN).of(2.0).is_nan());
+        assert!(matches!(AbcExponent::new(0.3), AbcExponent::Any(_)));
+        assert!(AbcExponent::new(f64::NAN).of(2.0).is_nan());
     }
 }

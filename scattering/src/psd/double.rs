@@ -6,10 +6,10 @@
 
 use crate::{
     psd::Psd,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`Double`].
+/// How programs name, parameterize and build a [`DoublePsd`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Double_PSD_Function",
@@ -21,24 +21,24 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         laws: Laws::NONE,
     },
     build: |node| {
-        Ok(Box::new(Double {
+        Ok(Box::new(DoublePsd {
             first: node.member::<dyn Psd>("psd1")?,
             second: node.member::<dyn Psd>("psd2")?,
         }))
     },
 };
 
-const fn part(name: &'static str, doc: &'static str) -> Param {
-    Param::member(name, Family::Psd, "PSD_Function", "ABC_PSD_Function", doc)
+const fn part(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::member(name, Family::Psd, "PSD_Function", "ABC_PSD_Function", doc)
 }
 
 /// A sum of two spectra.
-pub struct Double {
+pub struct DoublePsd {
     first: Box<dyn Psd>,
     second: Box<dyn Psd>,
 }
 
-impl Psd for Double {
+impl Psd for DoublePsd {
     fn density(&self, fx: f64, fy: f64) -> f64 {
         self.first.density(fx, fy) + self.second.density(fx, fy)
     }

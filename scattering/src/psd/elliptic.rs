@@ -9,16 +9,16 @@ use std::f64::consts::{PI, TAU};
 
 use super::{Psd, strength};
 use crate::{
-    spec::{Node, Param, ParamError},
+    spec::{Parameter, ParameterError, ParameterNode},
     special::bessel::bessel_over_power,
 };
 
 /// The parameters of every class of such features.
-pub(super) const ELLIPTIC: &[Param] = &[
-    Param::number("axisx", "1.5", "um", "Full axis along x"),
-    Param::number("axisy", "1.5", "um", "Full axis along y"),
-    Param::number("height", "0.01", "um", "Height of one"),
-    Param::number("density", "0.01", "1/um^2", "Number per area"),
+pub(super) const ELLIPTIC: &[Parameter] = &[
+    Parameter::number("axisx", "1.5", "um", "Full axis along x"),
+    Parameter::number("axisy", "1.5", "um", "Full axis along y"),
+    Parameter::number("height", "0.01", "um", "Height of one"),
+    Parameter::number("density", "0.01", "1/um^2", "Number per area"),
 ];
 
 /// Features whose transform is J_N(z)/z^N of an ellipse.
@@ -35,7 +35,11 @@ impl<const N: usize> Elliptic<N> {
     /// # Errors
     ///
     /// A negative density.
-    pub(super) fn read(node: &Node, factor: f64, shape: f64) -> Result<Self, ParamError> {
+    pub(super) fn read(
+        node: &ParameterNode,
+        factor: f64,
+        shape: f64,
+    ) -> Result<Self, ParameterError> {
         let (ax, ay) = (node.number("axisx"), node.number("axisy"));
         let volume = PI / 4.0 * shape * ax * ay * node.number("height");
         let peak = strength(node, "density")? * (factor * volume).powi(2);

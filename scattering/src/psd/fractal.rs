@@ -8,9 +8,9 @@
 //! E. L. Church, *Fractal surface finish*, Appl. Opt. 27, 1518 (1988).
 
 use crate::{
-    Mode, ParamError,
+    Mode, ParameterError,
     psd::{Psd, strength},
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`Fractal`].
@@ -22,8 +22,8 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = A/f^exponent",
         source: "church-1988",
         params: &[&[
-            Param::number("A", "0.01", "um^(4-exponent)", "Density at 1/um"),
-            Param::number("exponent", "2.5", "1", "Exponent of the fall"),
+            Parameter::number("A", "0.01", "um^(4-exponent)", "Density at 1/um"),
+            Parameter::number("exponent", "2.5", "1", "Exponent of the fall"),
         ]],
         laws: Laws::NONE,
     },
@@ -32,7 +32,7 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         let is_sound = node.mode == Mode::Sound;
         if is_sound && exponent.abs() > STEEPEST {
             let problem = format!("{exponent} is not from -{STEEPEST} to {STEEPEST}");
-            return Err(ParamError::new("exponent", problem));
+            return Err(ParameterError::new("exponent", problem));
         }
         let least = if is_sound { LEAST_SQUARED } else { 0.0 };
         Ok(Box::new(Fractal { a: strength(node, "A")?, power: -0.5 * exponent, least }))

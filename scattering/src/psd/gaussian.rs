@@ -11,10 +11,10 @@ use std::f64::consts::PI;
 
 use crate::{
     psd::Psd,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`Gaussian`].
+/// How programs name, parameterize and build a [`GaussianPsd`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Gaussian_PSD_Function",
@@ -23,25 +23,28 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = pi (sigma length)^2 exp(-(pi length f)^2)",
         source: "elson-1979",
         params: &[&[
-            Param::number("sigma", "0.05", "um", "Rms height"),
-            Param::number("length", "5", "um", "Correlation length"),
+            Parameter::number("sigma", "0.05", "um", "Rms height"),
+            Parameter::number("length", "5", "um", "Correlation length"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let (sigma, length) = (node.number("sigma"), node.number("length"));
-        Ok(Box::new(Gaussian { peak: PI * (sigma * length).powi(2), fall: (PI * length).powi(2) }))
+        Ok(Box::new(GaussianPsd {
+            peak: PI * (sigma * length).powi(2),
+            fall: (PI * length).powi(2),
+        }))
     },
 };
 
 /// A Gaussian spectrum.
 #[derive(Clone, Debug)]
-pub struct Gaussian {
+pub struct GaussianPsd {
     peak: f64,
     fall: f64,
 }
 
-impl Psd for Gaussian {
+impl Psd for GaussianPsd {
     fn density(&self, fx: f64, fy: f64) -> f64 {
         self.peak * (-self.fall * (fx * fx + fy * fy)).exp()
     }

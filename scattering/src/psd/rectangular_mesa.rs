@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 use crate::{
     psd::{Psd, sinc, strength},
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`RectangularMesa`].
@@ -23,10 +23,10 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = density (height lx ly sinc(pi fx lx) sinc(pi fy ly))^2",
         source: "born-1999",
         params: &[&[
-            Param::number("lengthx", "1.5", "um", "Length of the side along x"),
-            Param::number("lengthy", "1.5", "um", "Length of the side along y"),
-            Param::number("height", "0.01", "um", "Height of one"),
-            Param::number("density", "0.01", "1/um^2", "Number per area"),
+            Parameter::number("lengthx", "1.5", "um", "Length of the side along x"),
+            Parameter::number("lengthy", "1.5", "um", "Length of the side along y"),
+            Parameter::number("height", "0.01", "um", "Height of one"),
+            Parameter::number("density", "0.01", "1/um^2", "Number per area"),
         ]],
         laws: Laws::NONE,
     },

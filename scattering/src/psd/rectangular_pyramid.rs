@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use crate::{
     psd::{Psd, strength, triangle},
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`RectangularPyramid`].
@@ -24,10 +24,10 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = density |FT(pyramid)|^2",
         source: "deboor-2005",
         params: &[&[
-            Param::number("lengthx", "1.5", "um", "Length of the side along x"),
-            Param::number("lengthy", "1.5", "um", "Length of the side along y"),
-            Param::number("height", "0.01", "um", "Height of one"),
-            Param::number("density", "0.01", "1/um^2", "Number per area"),
+            Parameter::number("lengthx", "1.5", "um", "Length of the side along x"),
+            Parameter::number("lengthy", "1.5", "um", "Length of the side along y"),
+            Parameter::number("height", "0.01", "um", "Height of one"),
+            Parameter::number("density", "0.01", "1/um^2", "Number per area"),
         ]],
         laws: Laws::NONE,
     },

@@ -7,9 +7,9 @@
 //! J. C. Stover, *Optical Scattering: Measurement and Analysis*, 3rd ed. (SPIE, 2012), chapter 4.
 
 use crate::{
-    optics::Table,
+    optics::RealFunction,
     psd::Psd,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`Tabulated`].
@@ -20,7 +20,7 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         summary: "Tabulated against frequency",
         equation: "PSD = T(f)",
         source: "stover-2012",
-        params: &[&[Param::table(
+        params: &[&[Parameter::table(
             "T",
             "1",
             "um^4",
@@ -34,7 +34,7 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 /// A tabulated spectrum.
 #[derive(Clone, Debug)]
 pub struct Tabulated {
-    table: Table,
+    table: RealFunction,
 }
 
 impl Psd for Tabulated {

@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 
 use crate::{
     psd::{Psd, strength, triangle},
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`TriangularMesa`].
@@ -27,9 +27,9 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = density height^2 |FT(triangle)|^2",
         source: "deboor-2005",
         params: &[&[
-            Param::number("side", "1.5", "um", "Length of a side"),
-            Param::number("height", "0.01", "um", "Height of one"),
-            Param::number("density", "0.01", "1/um^2", "Number per area"),
+            Parameter::number("side", "1.5", "um", "Length of a side"),
+            Parameter::number("height", "0.01", "um", "Height of one"),
+            Parameter::number("density", "0.01", "1/um^2", "Number per area"),
         ]],
         laws: Laws::NONE,
     },

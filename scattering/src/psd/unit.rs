@@ -11,7 +11,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name, parameterize and build a [`Unit`].
+/// How programs name, parameterize and build a [`UnitPsd`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Unit_PSD_Function",
@@ -22,14 +22,14 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         params: &[],
         laws: Laws::NONE,
     },
-    build: |_| Ok(Box::new(Unit)),
+    build: |_| Ok(Box::new(UnitPsd)),
 };
 
 /// The same density at every frequency.
 #[derive(Clone, Debug)]
-pub struct Unit;
+pub struct UnitPsd;
 
-impl Psd for Unit {
+impl Psd for UnitPsd {
     fn density(&self, _: f64, _: f64) -> f64 {
         1.0
     }

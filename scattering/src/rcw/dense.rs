@@ -10,10 +10,10 @@ use faer::{
 };
 use num_complex::Complex64;
 
-use super::{Matrix, ONE};
+use super::{ComplexMatrix, ONE};
 
 /// a⁻¹ b by LU factorization with partial pivoting; both are used up.
-pub(super) fn solve(mut a: Matrix, mut b: Matrix) -> Matrix {
+pub(super) fn solve(mut a: ComplexMatrix, mut b: ComplexMatrix) -> ComplexMatrix {
     let (n, columns) = (a.nrows(), b.ncols());
     let (mut forward, mut backward) = (vec![0_usize; n], vec![0_usize; n]);
     let mut memory = MemBuffer::new(StackReq::any_of(&[
@@ -40,18 +40,23 @@ pub(super) fn solve(mut a: Matrix, mut b: Matrix) -> Matrix {
 }
 
 /// `onto` + `factor` · a · b.
-pub(super) fn add_product(mut onto: Matrix, factor: Complex64, a: &Matrix, b: &Matrix) -> Matrix {
+pub(super) fn add_product(
+    mut onto: ComplexMatrix,
+    factor: Complex64,
+    a: &ComplexMatrix,
+    b: &ComplexMatrix,
+) -> ComplexMatrix {
     matmul(onto.as_mut(), Accum::Add, a, b, factor, Par::Seq);
     onto
 }
 
 /// The identity.
-pub(super) fn identity(n: usize) -> Matrix {
-    Matrix::identity(n, n)
+pub(super) fn identity(n: usize) -> ComplexMatrix {
+    ComplexMatrix::identity(n, n)
 }
 
 /// (1 − f m)⁻¹(1 + f m) = 2(1 − f m)⁻¹ − 1.
-pub(super) fn cayley(f: Complex64, mut m: Matrix) -> Matrix {
+pub(super) fn cayley(f: Complex64, mut m: ComplexMatrix) -> ComplexMatrix {
     change(&mut m, |z, diagonal| if diagonal { ONE - f * z } else { -f * z });
     let one = identity(m.nrows());
     let mut inverse = solve(m, one);
@@ -60,7 +65,7 @@ pub(super) fn cayley(f: Complex64, mut m: Matrix) -> Matrix {
 }
 
 /// Replaces every element, told whether it is on the diagonal.
-fn change(m: &mut Matrix, of: impl Fn(Complex64, bool) -> Complex64) {
+fn change(m: &mut ComplexMatrix, of: impl Fn(Complex64, bool) -> Complex64) {
     for j in 0..m.ncols() {
         for (i, z) in m.col_as_slice_mut(j).iter_mut().enumerate() {
             *z = of(*z, i == j);
@@ -69,7 +74,10 @@ fn change(m: &mut Matrix, of: impl Fn(Complex64, bool) -> Complex64) {
 }
 
 /// Half the sum and half the difference.
-pub(super) fn half_sum_and_difference(mut a: Matrix, mut b: Matrix) -> (Matrix, Matrix) {
+pub(super) fn half_sum_and_difference(
+    mut a: ComplexMatrix,
+    mut b: ComplexMatrix,
+) -> (ComplexMatrix, ComplexMatrix) {
     for j in 0..a.ncols() {
         for (x, y) in a.col_as_slice_mut(j).iter_mut().zip(b.col_as_slice_mut(j)) {
             (*x, *y) = (0.5 * (*x + *y), 0.5 * (*x - *y));
@@ -79,9 +87,9 @@ pub(super) fn half_sum_and_difference(mut a: Matrix, mut b: Matrix) -> (Matrix, 
 }
 
 /// `constant` on the diagonal plus Σ c_k m_k with real coefficients.
-pub(super) fn combination(constant: f64, terms: [(f64, &Matrix); 4]) -> Matrix {
+pub(super) fn combination(constant: f64, terms: [(f64, &ComplexMatrix); 4]) -> ComplexMatrix {
     let n = terms[0].1.nrows();
-    let mut sum = Matrix::zeros(n, n);
+    let mut sum = ComplexMatrix::zeros(n, n);
     for j in 0..n {
         let column = sum.col_as_slice_mut(j);
         let [(a, p), (b, q), (c, r), (d, s)] = terms.map(|(c, m)| (c, m.col_as_slice(j)));
@@ -94,7 +102,7 @@ pub(super) fn combination(constant: f64, terms: [(f64, &Matrix); 4]) -> Matrix {
 }
 
 /// Largest sum of absolute values in a column.
-pub(super) fn column_norm(m: &Matrix) -> f64 {
+pub(super) fn column_norm(m: &ComplexMatrix) -> f64 {
     let sum = |j: usize| -> f64 { m.col_as_slice(j).iter().map(|z| z.norm_sqr().sqrt()).sum() };
     (0..m.ncols()).map(sum).fold(0.0, f64::max)
 }

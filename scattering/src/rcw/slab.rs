@@ -15,11 +15,11 @@
 //! *Multiple Light Scattering* (1980), for adding and doubling.
 
 use super::{
-    I, Matrix, ONE,
+    ComplexMatrix, I, ONE,
     dense::{
         add_product, cayley, column_norm, combination, half_sum_and_difference, identity, solve,
     },
-    layer::Pair,
+    layer::CoupledOperators,
 };
 
 /// Largest argument of the tangent; at 1.25 its ninth convergent is right to 3·10⁻¹⁵, and the
@@ -27,15 +27,15 @@ use super::{
 const REACH: f64 = 1.25;
 
 /// A slab with the same reflection and transmission from both sides.
-pub struct Slab {
-    reflection: Matrix,
-    transmission: Matrix,
+pub struct SymmetricSlab {
+    reflection: ComplexMatrix,
+    transmission: ComplexMatrix,
 }
 
-impl Slab {
+impl SymmetricSlab {
     /// The slab of thickness `depth` in which the fields obey `pair`.
-    pub fn new(pair: &Pair, depth: f64) -> Self {
-        let powers = Powers::of(&pair.p * &pair.q);
+    pub fn new(pair: &CoupledOperators, depth: f64) -> Self {
+        let powers = MatrixPowers::of(&pair.p * &pair.q);
         let argument = 0.5 * depth * powers.radius().sqrt();
         let doublings = (argument / REACH).log2().ceil().max(0.0);
         let doublings = if doublings.is_finite() { doublings as u32 } else { 0 };
@@ -59,7 +59,7 @@ impl Slab {
 
     /// Reflection by this slab on top of something that reflects by `below`, and the downward
     /// waves between the two from those above.
-    pub fn above(&self, below: &Matrix) -> (Matrix, Matrix) {
+    pub fn above(&self, below: &ComplexMatrix) -> (ComplexMatrix, ComplexMatrix) {
         let (r, t) = (&self.reflection, &self.transmission);
         let through = solve(add_product(identity(r.nrows()), -ONE, r, below), t.clone());
         (add_product(r.clone(), ONE, t, &(below * &through)), through)
@@ -67,10 +67,10 @@ impl Slab {
 }
 
 /// The first four powers of a matrix.
-struct Powers([Matrix; 4]);
+struct MatrixPowers([ComplexMatrix; 4]);
 
-impl Powers {
-    fn of(a: Matrix) -> Self {
+impl MatrixPowers {
+    fn of(a: ComplexMatrix) -> Self {
         let a2 = &a * &a;
         let a3 = &a * &a2;
         let a4 = &a2 * &a2;
@@ -84,13 +84,13 @@ impl Powers {
     }
 
     /// tan(√a h)/(√a h).
-    fn tangent(&self, h: f64) -> Matrix {
+    fn tangent(&self, h: f64) -> ComplexMatrix {
         let (numerator, denominator) = convergent();
         solve(self.polynomial(&denominator, h * h), self.polynomial(&numerator, h * h))
     }
 
     /// Σ c_k (a x)^k.
-    fn polynomial(&self, c: &[f64; 5], x: f64) -> Matrix {
+    fn polynomial(&self, c: &[f64; 5], x: f64) -> ComplexMatrix {
         let [a, a2, a3, a4] = &self.0;
         let x2 = x * x;
         combination(
@@ -122,8 +122,8 @@ mod tests {
 
     use super::*;
 
-    fn scalar(z: Complex64) -> Matrix {
-        Matrix::from_fn(1, 1, |_, _| z)
+    fn scalar(z: Complex64) -> ComplexMatrix {
+        ComplexMatrix::from_fn(1, 1, |_, _| z)
     }
 
     /// Reflection and transmission of a film of index n at normal incidence, from Airy's sum.
@@ -146,7 +146,8 @@ mod tests {
             ((1.5, 1e-3), 3000.0),
         ] {
             let n = Complex64::new(n.0, n.1);
-            let slab = Slab::new(&Pair { p: scalar(ONE), q: scalar(n * n) }, depth);
+            let slab =
+                SymmetricSlab::new(&CoupledOperators { p: scalar(ONE), q: scalar(n * n) }, depth);
             let (r, t) = airy(n, depth);
             // Rounding grows with the number of radians: 4·10⁻¹⁶ each, twofold margin.
             let tolerance = 1e-14 + 1e-15 * depth;

@@ -3,15 +3,15 @@
 use num_complex::Complex64;
 
 use super::{
-    Matrix,
+    ComplexMatrix,
     dense::{identity, solve},
 };
 
 /// Fourier coefficients −M…M of a periodic function.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series(pub Vec<Complex64>);
+pub struct FourierSeries(pub Vec<Complex64>);
 
-impl Series {
+impl FourierSeries {
     /// The coefficient of order `m`.
     ///
     /// # Panics
@@ -23,12 +23,12 @@ impl Series {
     }
 
     /// The matrix c_{i−j}, `n` × `n`: multiplication by the function.
-    pub fn matrix(&self, n: usize) -> Matrix {
-        Matrix::from_fn(n, n, |i, j| self.at(i as isize - j as isize))
+    pub fn matrix(&self, n: usize) -> ComplexMatrix {
+        ComplexMatrix::from_fn(n, n, |i, j| self.at(i as isize - j as isize))
     }
 }
 
 /// The inverse of `m`.
-pub fn inverse(m: &Matrix) -> Matrix {
+pub fn inverse(m: &ComplexMatrix) -> ComplexMatrix {
     solve(m.clone(), identity(m.nrows()))
 }

@@ -1,7 +1,7 @@
 //! Reflectance given by a formula of the wavelength in µm.
 
 use super::Reflectance;
-use crate::spec::{Class, Formula, Kind, Laws, Param, Spec};
+use crate::spec::{Class, FormulaFn, Laws, Parameter, ParameterKind, Spec};
 
 /// How programs name, parameterize and build an [`EquationReflectance`].
 pub const SPEC: Spec<dyn Reflectance> = Spec {
@@ -11,9 +11,9 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
         summary: "Reflectance from a formula of wavelength",
         equation: "R = expression(x), x = lambda in um",
         source: "nicodemus-1977",
-        params: &[&[Param {
+        params: &[&[Parameter {
             name: "expression",
-            kind: Kind::Formula,
+            kind: ParameterKind::Formula,
             default: "1",
             unit: "1",
             doc: "Reflectance as a formula of x, the wavelength in um",
@@ -27,7 +27,7 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
 
 /// A reflectance given by a formula.
 pub struct EquationReflectance {
-    expression: Formula,
+    expression: FormulaFn,
 }
 
 impl Reflectance for EquationReflectance {
@@ -41,12 +41,12 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{Mode, Node, Value, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, spec};
 
     #[test]
     fn formula_is_asked_at_the_wavelength() {
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-            .with("expression", Value::Formula(Arc::new(|x| 0.1 + 0.5 * x)))
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+            .with("expression", ParameterValue::Formula(Arc::new(|x| 0.1 + 0.5 * x)))
             .unwrap();
         let reflectance = spec::build::<dyn Reflectance>(&node).unwrap();
         assert_eq!(reflectance.at(0.4), 0.1 + 0.5 * 0.4);

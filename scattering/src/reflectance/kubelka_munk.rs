@@ -13,9 +13,9 @@
 
 use super::Reflectance;
 use crate::{
-    Defect, Node,
-    optics::Table,
-    spec::{Class, Family, Laws, Param, ParamError, Spec},
+    Defect, ParameterNode,
+    optics::RealFunction,
+    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
 };
 
 /// How programs name, parameterize and build a [`KubelkaMunk`] layer.
@@ -27,10 +27,20 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
         equation: "R = (Rg + (S-(S+K)Rg)tau)/(1 + (S+K-S Rg)tau), tau = tanh(bt)/b, b^2 = K(K+2S)",
         source: "kubelka-munk-1931 kubelka-1948",
         params: &[&[
-            Param::number("thickness", "1", "um", "Thickness of the layer"),
-            Param::table("absorption", "1", "1/um", "Absorption coefficient against wavelength"),
-            Param::table("scattering", "1", "1/um", "Scattering coefficient against wavelength"),
-            Param::member(
+            Parameter::number("thickness", "1", "um", "Thickness of the layer"),
+            Parameter::table(
+                "absorption",
+                "1",
+                "1/um",
+                "Absorption coefficient against wavelength",
+            ),
+            Parameter::table(
+                "scattering",
+                "1",
+                "1/um",
+                "Scattering coefficient against wavelength",
+            ),
+            Parameter::member(
                 "substrate",
                 Family::Reflectance,
                 "Reflectance",
@@ -43,7 +53,10 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
     build: |node| {
         let thickness = node.number("thickness");
         if !(thickness >= 0.0) {
-            return Err(ParamError::new("thickness", format!("{thickness} um is not a thickness")));
+            return Err(ParameterError::new(
+                "thickness",
+                format!("{thickness} um is not a thickness"),
+            ));
         }
         Ok(Box::new(KubelkaMunk {
             thickness,
@@ -58,11 +71,11 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
 /// A Kubelka–Munk layer on a backing.
 pub struct KubelkaMunk {
     thickness: f64,
-    absorption: Table,
-    scattering: Table,
+    absorption: RealFunction,
+    scattering: RealFunction,
     backing: Box<dyn Reflectance>,
     /// Asked whether to reproduce the overflow, which depends on the wavelength.
-    node: Node,
+    node: ParameterNode,
 }
 
 impl Reflectance for KubelkaMunk {
@@ -96,11 +109,11 @@ fn layer(k: f64, s: f64, t: f64, r_g: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Value, spec};
+    use crate::{Mode, ParameterValue, spec};
 
-    fn build(mode: Mode, thickness: f64) -> (Box<dyn Reflectance>, Node) {
-        let node = Node::with_defaults(&SPEC.class, mode)
-            .with("thickness", Value::Number(thickness))
+    fn build(mode: Mode, thickness: f64) -> (Box<dyn Reflectance>, ParameterNode) {
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("thickness", ParameterValue::Number(thickness))
             .unwrap();
         (spec::build::<dyn Reflectance>(&node).unwrap(), node)
     }
@@ -137,8 +150,8 @@ mod tests {
 
     #[test]
     fn a_negative_thickness_is_refused() {
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-            .with("thickness", Value::Number(-1.0))
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+            .with("thickness", ParameterValue::Number(-1.0))
             .unwrap();
         let error = spec::build::<dyn Reflectance>(&node).err().unwrap();
         assert_eq!(error.parameter, "thickness");

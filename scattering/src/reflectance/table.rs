@@ -2,8 +2,8 @@
 
 use super::Reflectance;
 use crate::{
-    optics::Table,
-    spec::{Class, Laws, Param, Spec},
+    optics::RealFunction,
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`TableReflectance`].
@@ -14,7 +14,7 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
         summary: "Reflectance from a table or a constant",
         equation: "R = table(lambda)",
         source: "nicodemus-1977",
-        params: &[&[Param::table("table", "1", "1", "Reflectance against wavelength in um")]],
+        params: &[&[Parameter::table("table", "1", "1", "Reflectance against wavelength in um")]],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(TableReflectance { table: node.table("table").clone() })),
@@ -23,7 +23,7 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
 /// A tabulated reflectance.
 #[derive(Clone, Debug)]
 pub struct TableReflectance {
-    table: Table,
+    table: RealFunction,
 }
 
 impl Reflectance for TableReflectance {

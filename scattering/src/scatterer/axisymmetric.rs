@@ -14,16 +14,16 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use num_complex::Complex64;
 
-use super::{FREE_SPACE, Scatterer, Surroundings};
+use super::{FREE_SPACE, HostMedium, Scatterer};
 use crate::{
-    Defect, Jones, Node,
-    polarization::Frame,
+    Defect, Jones, ParameterNode,
+    polarization::TransverseFrame,
     shape::Shape,
-    spec::{Class, Laws, ParamError, Spec},
+    spec::{Class, Laws, ParameterError, Spec},
     special::harmonics::Harmonics,
     tmatrix::{
         self, BODY, MULTIPOLES, TMatrix,
-        waves::{self, Beam, Multipole, Outgoing},
+        waves::{self, MirroredWave, Multipole, OutgoingMultipoles},
     },
 };
 
@@ -38,21 +38,21 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         params: &[FREE_SPACE, &BODY, &MULTIPOLES],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(Axisymmetric::read(node)?)),
+    build: |node| Ok(Box::new(AxisymmetricScatterer::read(node)?)),
 };
 
 /// A body of revolution.
-pub struct Axisymmetric {
-    around: Surroundings,
+pub struct AxisymmetricScatterer {
+    around: HostMedium,
     particle: TMatrix,
     harmonics: Harmonics,
     /// The incident light counts as if it travelled at azimuth 0.
     forgets_azimuth: bool,
 }
 
-impl Axisymmetric {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let around = Surroundings::read(node)?;
+impl AxisymmetricScatterer {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let around = HostMedium::read(node)?;
         let shape = node.member::<Shape>("Shape")?;
         let index = around.relative_index(node, "particle")?;
         let particle = tmatrix::read(node, &shape, index, around.wave_number())?;
@@ -62,7 +62,7 @@ impl Axisymmetric {
     }
 }
 
-impl Scatterer for Axisymmetric {
+impl Scatterer for AxisymmetricScatterer {
     fn lambda(&self) -> f64 {
         self.around.lambda
     }
@@ -71,28 +71,35 @@ impl Scatterer for Axisymmetric {
         self.around.medium
     }
 
-    fn jones(&self, k_in: DVec3, k_out: DVec3, frame_in: &Frame, frame_out: &Frame) -> Jones {
-        let (incoming, outgoing) = (Polar::new(k_in), Polar::new(k_out));
-        let regular = waves::regular(&self.harmonics, &Beam::free(incoming.cos, incoming.sin));
-        let scattered = Outgoing::symmetric(self.particle.answer(&regular).into_iter());
+    fn jones(
+        &self,
+        k_in: DVec3,
+        k_out: DVec3,
+        frame_in: &TransverseFrame,
+        frame_out: &TransverseFrame,
+    ) -> Jones {
+        let (incoming, outgoing) = (AxisDirection::new(k_in), AxisDirection::new(k_out));
+        let regular =
+            waves::regular(&self.harmonics, &MirroredWave::free(incoming.cos, incoming.sin));
+        let scattered = OutgoingMultipoles::symmetric(self.particle.answer(&regular).into_iter());
         let from = if self.forgets_azimuth { 0.0 } else { incoming.azimuth };
         let turn = outgoing.azimuth - from;
         let azimuth = (turn.cos(), turn.sin());
-        let beam = Beam::free(outgoing.cos, outgoing.sin);
+        let beam = MirroredWave::free(outgoing.cos, outgoing.sin);
         let j = scattered.amplitude(&self.harmonics, &beam, azimuth);
         outgoing.frame().to(frame_out) * j * frame_in.to(&incoming.frame())
     }
 }
 
 /// A direction in polar coordinates about the axis down.
-struct Polar {
+struct AxisDirection {
     cos: f64,
     sin: f64,
     /// Counted from x towards −y.
     azimuth: f64,
 }
 
-impl Polar {
+impl AxisDirection {
     fn new(k: DVec3) -> Self {
         let sin = k.x.hypot(k.y);
         let azimuth = if sin == 0.0 { 0.0 } else { (-k.y).atan2(k.x).rem_euclid(TAU) };
@@ -100,9 +107,9 @@ impl Polar {
     }
 
     /// (φ̂, θ̂), which take the places of s and p.
-    fn frame(&self) -> Frame {
+    fn frame(&self) -> TransverseFrame {
         let (s, c) = self.azimuth.sin_cos();
-        Frame {
+        TransverseFrame {
             first: DVec3::new(-s, -c, 0.0),
             second: DVec3::new(self.cos * c, -self.cos * s, self.sin),
         }
@@ -130,25 +137,25 @@ mod tests {
     use glam::DMat3;
 
     use super::*;
-    use crate::{Mode, Value, spec};
+    use crate::{Mode, ParameterValue, spec};
 
     fn particle(vertical: f64, horizontal: f64) -> Box<dyn Scatterer> {
         built(vertical, horizontal, Mode::Sound)
     }
 
     fn built(vertical: f64, horizontal: f64, mode: Mode) -> Box<dyn Scatterer> {
-        let shape = Node::with_defaults(&crate::shape::ellipsoid::SPEC.class, Mode::Sound)
-            .with("vertical", Value::Number(vertical))
-            .and_then(|node| node.with("horizontal", Value::Number(horizontal)))
+        let shape = ParameterNode::with_defaults(&crate::shape::ellipsoid::SPEC.class, Mode::Sound)
+            .with("vertical", ParameterValue::Number(vertical))
+            .and_then(|node| node.with("horizontal", ParameterValue::Number(horizontal)))
             .unwrap();
-        let node = Node::with_defaults(&SPEC.class, mode)
-            .with("Shape", Value::Member(shape.into()))
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("Shape", ParameterValue::Member(shape.into()))
             .unwrap();
         spec::build::<dyn Scatterer>(&node).unwrap()
     }
 
     fn jones(particle: &dyn Scatterer, k_in: DVec3, k_out: DVec3) -> Jones {
-        particle.jones(k_in, k_out, &Frame::psps(k_in), &Frame::psps(k_out))
+        particle.jones(k_in, k_out, &TransverseFrame::psps(k_in), &TransverseFrame::psps(k_out))
     }
 
     fn largest(a: &Jones, b: &Jones) -> f64 {
@@ -161,8 +168,9 @@ mod tests {
     #[test]
     fn a_round_one_is_the_sphere_of_mie() {
         let class = &super::super::mie::SPEC.class;
-        let node =
-            Node::with_defaults(class, Mode::Sound).with("radius", Value::Number(0.1)).unwrap();
+        let node = ParameterNode::with_defaults(class, Mode::Sound)
+            .with("radius", ParameterValue::Number(0.1))
+            .unwrap();
         let sphere = spec::build::<dyn Scatterer>(&node).unwrap();
         let body = particle(0.1, 0.1);
         for (a, b) in [

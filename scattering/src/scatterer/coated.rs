@@ -5,10 +5,10 @@
 //! A. L. Aden and M. Kerker, J. Appl. Phys. 22, 1242 (1951); C. F. Bohren and D. R. Huffman,
 //! *Absorption and Scattering of Light by Small Particles* (Wiley, 1983), 8.1.
 
-use super::{FREE_SPACE, SPHERE, Scatterer, Surroundings, mie::Mie, series};
+use super::{FREE_SPACE, HostMedium, SPHERE, Scatterer, mie::Mie, series};
 use crate::{
-    Node,
-    spec::{Class, Laws, Param, ParamError, Spec},
+    ParameterNode,
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
 /// How programs name, parameterize and build a coated sphere.
@@ -23,9 +23,14 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
             FREE_SPACE,
             SPHERE,
             &[
-                Param::index("coating", "(1,0)", "Index of the coat"),
-                Param::number("thickness", "0", "um", "Thickness of the coat, inside the radius"),
-                Param::integer(
+                Parameter::index("coating", "(1,0)", "Index of the coat"),
+                Parameter::number(
+                    "thickness",
+                    "0",
+                    "um",
+                    "Thickness of the coat, inside the radius",
+                ),
+                Parameter::integer(
                     "nmax",
                     "0",
                     "Terms of the series: 0 as many as needed, -n that many less, n exactly n",
@@ -35,14 +40,14 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         laws: Laws::NONE,
     },
     build: |node| {
-        let around = Surroundings::read(node)?;
+        let around = HostMedium::read(node)?;
         let sphere = around.relative_index(node, "sphere")?;
         let coating = around.relative_index(node, "coating")?;
         let radius = around.radius(node, &[sphere, coating])?;
         let thickness = node.number("thickness");
         if !(0.0..=radius).contains(&thickness) {
             let problem = format!("{thickness} um is not from 0 to the radius {radius} um");
-            return Err(ParamError::new("thickness", problem));
+            return Err(ParameterError::new("thickness", problem));
         }
         let k = around.wave_number();
         let core = (sphere, k * (radius - thickness));
@@ -53,7 +58,7 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
 };
 
 /// The number of terms that `nmax` asks for where the size needs `needed`.
-fn terms(node: &Node, needed: usize) -> Result<usize, ParamError> {
+fn terms(node: &ParameterNode, needed: usize) -> Result<usize, ParameterError> {
     /// Larger spheres than any that a series of this length describes are not built.
     const MOST: i64 = 1_000_000;
     let nmax = i64::from(node.integer("nmax"));
@@ -61,33 +66,33 @@ fn terms(node: &Node, needed: usize) -> Result<usize, ParamError> {
     if (1..=MOST).contains(&terms) {
         return Ok(terms as usize);
     }
-    Err(ParamError::new("nmax", format!("{nmax} leaves {terms} of {needed} terms")))
+    Err(ParameterError::new("nmax", format!("{nmax} leaves {terms} of {needed} terms")))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
-        Mode, Value,
-        optics::Index,
-        spec::{self, ParamError},
+        Mode, ParameterValue,
+        optics::RefractiveIndex,
+        spec::{self, ParameterError},
     };
 
-    fn build(thickness: f64, nmax: i32) -> Result<Box<dyn Scatterer>, ParamError> {
-        let index = |n, k| Value::Index(Index::constant(n, k));
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-            .with("radius", Value::Number(0.3))?
+    fn build(thickness: f64, nmax: i32) -> Result<Box<dyn Scatterer>, ParameterError> {
+        let index = |n, k| ParameterValue::Index(RefractiveIndex::constant(n, k));
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+            .with("radius", ParameterValue::Number(0.3))?
             .with("sphere", index(1.7, 0.02))?
             .with("coating", index(1.4, 0.3))?
-            .with("thickness", Value::Number(thickness))?
-            .with("nmax", Value::Integer(nmax))?;
+            .with("thickness", ParameterValue::Number(thickness))?
+            .with("nmax", ParameterValue::Integer(nmax))?;
         spec::build::<dyn Scatterer>(&node)
     }
 
     #[test]
     fn a_coat_of_the_whole_radius_is_a_sphere_of_its_material() {
-        let around = Surroundings { lambda: 0.532, medium: 1.0.into() };
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound);
+        let around = HostMedium { lambda: 0.532, medium: 1.0.into() };
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound);
         let expected = Mie::homogeneous(&node, around, num_complex::Complex64::new(1.4, 0.3), 0.3);
         let got = build(0.3, 0).unwrap().round().unwrap().cross_sections().unwrap();
         let expected = expected.series().cross_sections(around.wave_number());

@@ -23,14 +23,14 @@ use num_complex::Complex64;
 use crate::special::riccati;
 
 /// A layer: its index relative to the medium outside, and the size parameter of its outer face.
-pub type Layer = (Complex64, f64);
+pub type SphereShell = (Complex64, f64);
 
 /// Derivatives (H^a_n, H^b_n) at the outer face of the layers passed so far.
-type Faces = Vec<(Complex64, Complex64)>;
+type FaceDerivatives = Vec<(Complex64, Complex64)>;
 
 /// (a_n, b_n) of the homogeneous sphere `layer` for n = 1 … `terms`, with D1 started at the order
 /// `from` > `terms`.
-pub fn homogeneous(layer: Layer, terms: usize, from: usize) -> Vec<(Complex64, Complex64)> {
+pub fn homogeneous(layer: SphereShell, terms: usize, from: usize) -> Vec<(Complex64, Complex64)> {
     outside(layer, &core(layer, terms, from))
 }
 
@@ -39,8 +39,8 @@ pub fn homogeneous(layer: Layer, terms: usize, from: usize) -> Vec<(Complex64, C
 /// # Panics
 ///
 /// If no layer has a positive outer size parameter.
-pub fn coefficients(layers: &[Layer], terms: usize) -> Vec<(Complex64, Complex64)> {
-    let mut inside: Option<(Layer, Faces)> = None;
+pub fn coefficients(layers: &[SphereShell], terms: usize) -> Vec<(Complex64, Complex64)> {
+    let mut inside: Option<(SphereShell, FaceDerivatives)> = None;
     for &layer in layers.iter().filter(|layer| layer.1 > 0.0) {
         let faces = match inside {
             None => core(layer, terms, riccati::start(terms, layer.0 * layer.1)),
@@ -53,7 +53,7 @@ pub fn coefficients(layers: &[Layer], terms: usize) -> Vec<(Complex64, Complex64
     outside(outermost, &faces)
 }
 
-fn core((m, x): Layer, terms: usize, from: usize) -> Faces {
+fn core((m, x): SphereShell, terms: usize, from: usize) -> FaceDerivatives {
     riccati::log_derivatives(terms, m * x, from).into_iter().map(|d| (d, d)).collect()
 }
 
@@ -62,7 +62,7 @@ fn derivatives(terms: usize, z: Complex64) -> Vec<Complex64> {
 }
 
 /// H at the outer face of the shell `layer` around `inner`.
-fn shell(inner: Layer, (m, x): Layer, faces: &Faces) -> Faces {
+fn shell(inner: SphereShell, (m, x): SphereShell, faces: &FaceDerivatives) -> FaceDerivatives {
     let (near, far) = (m * inner.1, m * x);
     let terms = faces.len() - 1;
     let (d1_near, d1_far) = (derivatives(terms, near), derivatives(terms, far));
@@ -94,7 +94,7 @@ fn first_ratio(near: Complex64, far: Complex64) -> Complex64 {
     (phase(far) - phase(far - near)) / (phase(far) - 1.0)
 }
 
-fn outside((m, x): Layer, faces: &Faces) -> Vec<(Complex64, Complex64)> {
+fn outside((m, x): SphereShell, faces: &FaceDerivatives) -> Vec<(Complex64, Complex64)> {
     let (psi, chi) = riccati::real(faces.len() - 1, x);
     let coefficient = |n: usize, y: Complex64| {
         let factor = y + n as f64 / x;

@@ -11,11 +11,11 @@
 use num_complex::Complex64;
 
 use super::{
-    CrossSections, FREE_SPACE, Round, SPHERE, Scatterer, Surroundings, layered,
-    series::{self, Series},
+    CrossSections, FREE_SPACE, HostMedium, SPHERE, Scatterer, SphericalScatterer, layered,
+    series::{self, MieSeries},
 };
 use crate::{
-    Defect, Jones, Node,
+    Defect, Jones, ParameterNode,
     spec::{Class, Laws, Spec},
     special::riccati,
 };
@@ -32,7 +32,7 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         laws: Laws::NONE,
     },
     build: |node| {
-        let around = Surroundings::read(node)?;
+        let around = HostMedium::read(node)?;
         let m = around.relative_index(node, "sphere")?;
         let radius = around.radius(node, &[m])?;
         Ok(Box::new(Mie::homogeneous(node, around, m, radius)))
@@ -42,38 +42,43 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
 /// A sphere given by its Mie coefficients.
 #[derive(Clone, Debug)]
 pub struct Mie {
-    around: Surroundings,
-    series: Series,
+    around: HostMedium,
+    series: MieSeries,
 }
 
 impl Mie {
     /// A homogeneous sphere of relative index `m` and radius `radius` µm; `node` knows whether
     /// to start its recurrence as NIST's library does.
-    pub fn homogeneous(node: &Node, around: Surroundings, m: Complex64, radius: f64) -> Self {
+    pub fn homogeneous(
+        node: &ParameterNode,
+        around: HostMedium,
+        m: Complex64,
+        radius: f64,
+    ) -> Self {
         let x = around.wave_number() * radius;
         let terms = series::terms(x);
         let coefficients = layered::homogeneous((m, x), terms, first_order(node, m * x, x));
-        Self { around, series: Series::new(&coefficients) }
+        Self { around, series: MieSeries::new(&coefficients) }
     }
 
     /// A sphere of layers, from the inside out, with `terms` terms.
-    pub fn layered(around: Surroundings, layers: &[layered::Layer], terms: usize) -> Self {
-        Self { around, series: Series::new(&layered::coefficients(layers, terms)) }
+    pub fn layered(around: HostMedium, layers: &[layered::SphereShell], terms: usize) -> Self {
+        Self { around, series: MieSeries::new(&layered::coefficients(layers, terms)) }
     }
 
     /// Its series.
-    pub fn series(&self) -> &Series {
+    pub fn series(&self) -> &MieSeries {
         &self.series
     }
 
     /// Its series, without the rest.
-    pub fn into_series(self) -> Series {
+    pub fn into_series(self) -> MieSeries {
         self.series
     }
 }
 
-impl Round for Mie {
-    fn surroundings(&self) -> &Surroundings {
+impl SphericalScatterer for Mie {
+    fn surroundings(&self) -> &HostMedium {
         &self.around
     }
 
@@ -87,7 +92,7 @@ impl Round for Mie {
 }
 
 /// The order at which the recurrence of ψ'/ψ at `z` = mx starts.
-fn first_order(node: &Node, z: Complex64, x: f64) -> usize {
+fn first_order(node: &ParameterNode, z: Complex64, x: f64) -> usize {
     let converged = riccati::start(series::terms(x), z);
     let library = (x + 4.0 * x.powf(0.3333) + 2.0).max(z.norm()) + 15.0;
     // Six widths of the turning point leave exp(−1.9·6^{3/2}) = 1e-12 of the start's error.
@@ -101,13 +106,13 @@ mod tests {
     use crate::Mode;
     use std::f64::consts::PI;
 
-    fn sound() -> Node {
-        Node::with_defaults(&SPEC.class, Mode::Sound)
+    fn sound() -> ParameterNode {
+        ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
     }
 
     /// Efficiencies (Q_sca, Q_ext, Q_back) of a sphere of size parameter `x` in vacuum.
     fn efficiencies(x: f64, m: Complex64) -> (f64, f64, f64) {
-        let around = Surroundings { lambda: 2.0 * PI, medium: Complex64::ONE };
+        let around = HostMedium { lambda: 2.0 * PI, medium: Complex64::ONE };
         let c = Mie::homogeneous(&sound(), around, m, x).cross_sections().unwrap();
         let area = PI * x * x;
         (c.scattering / area, c.extinction / area, c.back / area)
@@ -133,7 +138,7 @@ mod tests {
             (90.0, 0.124601e-1, 0.230462, 0.937497, 0.260742),
             (180.0, 0.383189e-1, 0.0, -1.0, 0.0),
         ];
-        let around = Surroundings { lambda: 0.6328, medium: Complex64::ONE };
+        let around = HostMedium { lambda: 0.6328, medium: Complex64::ONE };
         let sphere = Mie::homogeneous(&sound(), around, Complex64::new(1.55, 0.0), 0.525);
         let s11 = |s: &Jones| 0.5 * (s.ss.norm_sqr() + s.pp.norm_sqr());
         let forward = s11(&sphere.amplitudes(1.0));
@@ -187,8 +192,8 @@ mod tests {
     #[test]
     fn the_low_start_of_the_recurrence_shows_in_large_spheres_of_compat_only() {
         let at = |mode, radius| {
-            let node = Node::with_defaults(&SPEC.class, mode);
-            let around = Surroundings { lambda: 0.55, medium: Complex64::ONE };
+            let node = ParameterNode::with_defaults(&SPEC.class, mode);
+            let around = HostMedium { lambda: 0.55, medium: Complex64::ONE };
             let sphere = Mie::homogeneous(&node, around, Complex64::new(1.33, 0.0), radius);
             (sphere.amplitudes(0.4536).ss, !node.met.lock().unwrap().is_empty())
         };

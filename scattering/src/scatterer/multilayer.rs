@@ -5,9 +5,9 @@
 //!
 //! W. Yang, Appl. Opt. 42, 1710 (2003).
 
-use super::{FREE_SPACE, SPHERE, Scatterer, Surroundings, layered::Layer, mie::Mie, series};
+use super::{FREE_SPACE, HostMedium, SPHERE, Scatterer, layered::SphereShell, mie::Mie, series};
 use crate::{
-    spec::{Class, Family, Laws, Param, ParamError, Spec},
+    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
     stack::Stack,
 };
 
@@ -22,7 +22,7 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         params: &[
             FREE_SPACE,
             SPHERE,
-            &[Param::member(
+            &[Parameter::member(
                 "stack",
                 Family::Stack,
                 "StackModel",
@@ -33,10 +33,10 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         laws: Laws::NONE,
     },
     build: |node| {
-        let around = Surroundings::read(node)?;
+        let around = HostMedium::read(node)?;
         let sphere = around.relative_index(node, "sphere")?;
         let stack = node.member::<Stack>("stack")?.at(around.lambda);
-        let coats: Vec<Layer> = stack
+        let coats: Vec<SphereShell> = stack
             .into_iter()
             .map(|(index, thickness)| Ok((around.relative(index, "stack")?, thickness)))
             .collect::<Result<_, _>>()?;
@@ -45,11 +45,11 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         let total: f64 = coats.iter().map(|coat| coat.1).sum();
         if !(0.0..=radius).contains(&total) {
             let problem = format!("coats of {total} um do not fit in the radius {radius} um");
-            return Err(ParamError::new("stack", problem));
+            return Err(ParameterError::new("stack", problem));
         }
         let k = around.wave_number();
         let mut r = radius - total;
-        let mut layers: Vec<Layer> = vec![(sphere, k * r)];
+        let mut layers: Vec<SphereShell> = vec![(sphere, k * r)];
         for (index, thickness) in coats {
             r += thickness;
             layers.push((index, k * r));
@@ -63,25 +63,29 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{Mode, Node, Value, optics::Index, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, optics::RefractiveIndex, spec};
 
-    fn coated(thickness: f64) -> Result<Box<dyn Scatterer>, ParamError> {
-        let film =
-            Node::with_defaults(spec::find_class("SingleFilm_StackModel").unwrap(), Mode::Sound)
-                .with("material", Value::Index(Index::constant(1.4, 0.3)))?
-                .with("thickness", Value::Number(thickness))?;
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-            .with("radius", Value::Number(0.3))?
-            .with("stack", Value::Member(Arc::new(film)))?;
+    fn coated(thickness: f64) -> Result<Box<dyn Scatterer>, ParameterError> {
+        let film = ParameterNode::with_defaults(
+            spec::find_class("SingleFilm_StackModel").unwrap(),
+            Mode::Sound,
+        )
+        .with("material", ParameterValue::Index(RefractiveIndex::constant(1.4, 0.3)))?
+        .with("thickness", ParameterValue::Number(thickness))?;
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+            .with("radius", ParameterValue::Number(0.3))?
+            .with("stack", ParameterValue::Member(Arc::new(film)))?;
         spec::build::<dyn Scatterer>(&node)
     }
 
     #[test]
     fn one_coat_is_the_coated_sphere() {
-        let node = Node::with_defaults(&super::super::coated::SPEC.class, Mode::Sound)
-            .with("radius", Value::Number(0.3))
-            .and_then(|n| n.with("coating", Value::Index(Index::constant(1.4, 0.3))))
-            .and_then(|n| n.with("thickness", Value::Number(0.1)))
+        let node = ParameterNode::with_defaults(&super::super::coated::SPEC.class, Mode::Sound)
+            .with("radius", ParameterValue::Number(0.3))
+            .and_then(|n| {
+                n.with("coating", ParameterValue::Index(RefractiveIndex::constant(1.4, 0.3)))
+            })
+            .and_then(|n| n.with("thickness", ParameterValue::Number(0.1)))
             .unwrap();
         let expected = spec::build::<dyn Scatterer>(&node).unwrap();
         let (a, b) = (coated(0.1).unwrap(), expected);

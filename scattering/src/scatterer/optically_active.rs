@@ -16,12 +16,12 @@
 use num_complex::Complex64;
 
 use super::{
-    FREE_SPACE, Round, Scatterer, Surroundings,
-    series::{self, AngularFunctions, Series},
+    FREE_SPACE, HostMedium, Scatterer, SphericalScatterer,
+    series::{self, AngularFunctions, MieSeries},
 };
 use crate::{
     Jones,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
     special::riccati,
 };
 
@@ -36,15 +36,15 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         params: &[
             FREE_SPACE,
             &[
-                Param::index("materialleft", "(1.59,0)", "Index for left circular light"),
-                Param::index("materialright", "(1.59,0)", "Index for right circular light"),
-                Param::number("radius", "1", "um", "Radius"),
+                Parameter::index("materialleft", "(1.59,0)", "Index for left circular light"),
+                Parameter::index("materialright", "(1.59,0)", "Index for right circular light"),
+                Parameter::number("radius", "1", "um", "Radius"),
             ],
         ],
         laws: Laws::NONE,
     },
     build: |node| {
-        let around = Surroundings::read(node)?;
+        let around = HostMedium::read(node)?;
         let left = around.relative_index(node, "materialleft")?;
         let right = around.relative_index(node, "materialright")?;
         let radius = around.radius(node, &[left, right])?;
@@ -55,14 +55,14 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
 /// A sphere of an optically active material.
 #[derive(Clone, Debug)]
 pub struct OpticallyActive {
-    around: Surroundings,
-    series: Series,
+    around: HostMedium,
+    series: MieSeries,
     /// (2n+1)/(n(n+1)) c_n, n from 1.
     mixing: Vec<Complex64>,
 }
 
 impl OpticallyActive {
-    fn new(around: Surroundings, left: Complex64, right: Complex64, radius: f64) -> Self {
+    fn new(around: HostMedium, left: Complex64, right: Complex64, radius: f64) -> Self {
         let x = around.wave_number() * radius;
         let (mut diagonal, mut mixing) = (Vec::new(), Vec::new());
         for (at, [a, b, c]) in coefficients(left, right, x, series::terms(x)).enumerate() {
@@ -70,7 +70,7 @@ impl OpticallyActive {
             diagonal.push((a, b));
             mixing.push(c * ((2.0 * n + 1.0) / (n * (n + 1.0))));
         }
-        Self { around, series: Series::new(&diagonal), mixing }
+        Self { around, series: MieSeries::new(&diagonal), mixing }
     }
 }
 
@@ -105,8 +105,8 @@ fn coefficients(
     })
 }
 
-impl Round for OpticallyActive {
-    fn surroundings(&self) -> &Surroundings {
+impl SphericalScatterer for OpticallyActive {
+    fn surroundings(&self) -> &HostMedium {
         &self.around
     }
 
@@ -121,14 +121,14 @@ impl Round for OpticallyActive {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Node};
+    use crate::{Mode, ParameterNode};
 
-    const AROUND: Surroundings = Surroundings { lambda: 0.5, medium: Complex64::new(1.33, 0.0) };
+    const AROUND: HostMedium = HostMedium { lambda: 0.5, medium: Complex64::new(1.33, 0.0) };
 
     #[test]
     fn equal_indices_are_the_inactive_sphere() {
         let m = Complex64::new(1.2, 0.01);
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound);
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound);
         let active = OpticallyActive::new(AROUND, m, m, 0.4);
         let mie = super::super::mie::Mie::homogeneous(&node, AROUND, m, 0.4);
         for cos in [-1.0, 0.2, 0.9] {

@@ -14,14 +14,15 @@ use std::f64::consts::PI;
 use num_complex::Complex64;
 
 use super::{
-    CrossSections, FREE_SPACE, Round, SPHERE, Scatterer, Surroundings, positive, series::matrix,
+    CrossSections, FREE_SPACE, HostMedium, SPHERE, Scatterer, SphericalScatterer, positive,
+    series::matrix,
 };
 use crate::{
     Defect, Jones,
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name, parameterize and build a [`Rayleigh`] sphere.
+/// How programs name, parameterize and build a [`RayleighSphere`] sphere.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "RayleighScatterer",
@@ -33,27 +34,31 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         laws: Laws::NONE,
     },
     build: |node| {
-        let around = Surroundings::read(node)?;
+        let around = HostMedium::read(node)?;
         let radius = positive(node, "radius")?;
         let m = around.relative_index(node, "sphere")?;
         let x = around.wave_number() * radius;
         let phase =
             if node.reproduces(Defect::RayleighPhase) { Complex64::ONE } else { -Complex64::I };
         let amplitude = phase * x.powi(3) * (m * m - 1.0) / (m * m + 2.0);
-        Ok(Box::new(Rayleigh { around, amplitude, cross_sections: cross_sections(radius, x, m) }))
+        Ok(Box::new(RayleighSphere {
+            around,
+            amplitude,
+            cross_sections: cross_sections(radius, x, m),
+        }))
     },
 };
 
 /// A sphere much smaller than the wavelength.
 #[derive(Clone, Copy, Debug)]
-pub struct Rayleigh {
-    around: Surroundings,
+pub struct RayleighSphere {
+    around: HostMedium,
     amplitude: Complex64,
     cross_sections: CrossSections,
 }
 
-impl Round for Rayleigh {
-    fn surroundings(&self) -> &Surroundings {
+impl SphericalScatterer for RayleighSphere {
+    fn surroundings(&self) -> &HostMedium {
         &self.around
     }
 
@@ -82,11 +87,11 @@ fn cross_sections(radius: f64, x: f64, m: Complex64) -> CrossSections {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Node, Value, optics::Index, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, optics::RefractiveIndex, spec};
 
     fn amplitude(mode: Mode) -> Complex64 {
-        let node = Node::with_defaults(&SPEC.class, mode)
-            .with("sphere", Value::Index(Index::constant(1.5, 0.0)))
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("sphere", ParameterValue::Index(RefractiveIndex::constant(1.5, 0.0)))
             .unwrap();
         spec::build::<dyn Scatterer>(&node).unwrap().round().unwrap().amplitudes(1.0).pp
     }
@@ -100,8 +105,8 @@ mod tests {
     #[test]
     fn cross_sections_are_those_of_a_small_mie_sphere() {
         // Scattering lacks terms of relative order x², extinction of an absorbing sphere x³.
-        let around = Surroundings { lambda: 2.0 * PI, medium: Complex64::ONE };
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound);
+        let around = HostMedium { lambda: 2.0 * PI, medium: Complex64::ONE };
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound);
         let (x, m) = (0.01, Complex64::new(1.5, 0.3));
         let mie =
             super::super::mie::Mie::homogeneous(&node, around, m, x).cross_sections().unwrap();

@@ -15,7 +15,8 @@ use std::f64::consts::PI;
 use num_complex::Complex64;
 
 use super::{
-    CrossSections, FREE_SPACE, Round, SPHERE, Scatterer, Surroundings, positive, series::matrix,
+    CrossSections, FREE_SPACE, HostMedium, SPHERE, Scatterer, SphericalScatterer, positive,
+    series::matrix,
 };
 use crate::{
     Defect, Jones,
@@ -23,7 +24,7 @@ use crate::{
     special::gauss,
 };
 
-/// How programs name, parameterize and build a [`RayleighGans`] sphere.
+/// How programs name, parameterize and build a [`RayleighGansSphere`] sphere.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "RayleighGansSphereScatterer",
@@ -35,7 +36,7 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         laws: Laws::NONE,
     },
     build: |node| {
-        let around = Surroundings::read(node)?;
+        let around = HostMedium::read(node)?;
         let radius = positive(node, "radius")?;
         let contrast = around.relative_index(node, "sphere")? - 1.0;
         let x = around.wave_number() * radius;
@@ -43,22 +44,22 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         let phase = if compat { Complex64::I } else { -Complex64::I };
         let amplitude = 2.0 / 3.0 * x.powi(3) * phase * contrast;
         let cross_sections = cross_sections(radius, x, contrast);
-        Ok(Box::new(RayleighGans { around, x, amplitude, cross_sections }))
+        Ok(Box::new(RayleighGansSphere { around, x, amplitude, cross_sections }))
     },
 };
 
 /// A sphere of nearly the index of its medium.
 #[derive(Clone, Copy, Debug)]
-pub struct RayleighGans {
-    around: Surroundings,
+pub struct RayleighGansSphere {
+    around: HostMedium,
     x: f64,
     /// S of forward light.
     amplitude: Complex64,
     cross_sections: CrossSections,
 }
 
-impl Round for RayleighGans {
-    fn surroundings(&self) -> &Surroundings {
+impl SphericalScatterer for RayleighGansSphere {
+    fn surroundings(&self) -> &HostMedium {
         &self.around
     }
 
@@ -134,13 +135,14 @@ fn entire_cosine_integral(y: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Node, spec};
+    use crate::{Mode, ParameterNode, spec};
 
     #[test]
     fn forward_light_has_the_phase_of_mie_soundly_and_the_opposite_in_compat() {
         let forward = |mode| {
             let particle =
-                spec::build::<dyn Scatterer>(&Node::with_defaults(&SPEC.class, mode)).unwrap();
+                spec::build::<dyn Scatterer>(&ParameterNode::with_defaults(&SPEC.class, mode))
+                    .unwrap();
             particle.round().unwrap().amplitudes(1.0).pp
         };
         let (sound, compat) = (forward(Mode::Sound), forward(Mode::Compat));

@@ -24,12 +24,12 @@ pub fn terms(x: f64) -> usize {
 
 /// Coefficients of a sphere, prepared for sums over n.
 #[derive(Clone, Debug, Default)]
-pub struct Series {
+pub struct MieSeries {
     /// (2n+1)/(n(n+1)) times a_n + b_n and a_n − b_n, n from 1.
     terms: Vec<(Complex64, Complex64)>,
 }
 
-impl Series {
+impl MieSeries {
     /// The series with the coefficients (a_n, b_n), n from 1.
     pub fn new(coefficients: &[(Complex64, Complex64)]) -> Self {
         let term = |(at, (a, b)): (usize, &(Complex64, Complex64))| {
@@ -92,7 +92,7 @@ impl Series {
     }
 }
 
-/// The amplitudes S1 (⊥), S2 (∥) as the matrix of [`Round`](super::Round).
+/// The amplitudes S1 (⊥), S2 (∥) as the matrix of [`SphericalScatterer`](super::Round).
 pub(super) fn matrix((s1, s2): (Complex64, Complex64)) -> Jones {
     Jones::diagonal(s2, s1)
 }

@@ -10,7 +10,7 @@
 use super::Shadow;
 use crate::{
     Direction, Incidence,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -22,8 +22,8 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         equation: "G = (1 + (tn/Omega) exp(-2 beta/tau))/(1 + tn/Omega)",
         source: "maxwell-1973",
         params: &[&[
-            Param::number("Omega", "0.7", "rad", "Scale of the facet tilt"),
-            Param::number("tau", "0.25", "rad", "Scale of the angle of incidence on the facet"),
+            Parameter::number("Omega", "0.7", "rad", "Scale of the facet tilt"),
+            Parameter::number("tau", "0.25", "rad", "Scale of the angle of incidence on the facet"),
         ]],
         laws: Laws::NONE,
     },
@@ -32,12 +32,12 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
     },
 };
 
-fn scale(node: &Node, name: &str) -> Result<f64, ParamError> {
+fn scale(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let x = node.number(name);
     if x > 0.0 {
         return Ok(x);
     }
-    Err(ParamError::new(name, format!("{x} rad is not positive")))
+    Err(ParameterError::new(name, format!("{x} rad is not positive")))
 }
 
 struct MaxwellBeard {

@@ -26,7 +26,7 @@ use super::Shadow;
 use crate::{
     Direction, Incidence,
     slope::SlopeDistribution,
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
     special::erf::{ROOT_PI, falling_and_scaled},
 };
 
@@ -39,19 +39,19 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         equation: "G = 1/(1 + Lambda_i + Lambda_s)",
         source: "sancer-1969 van-ginneken-1998",
         params: &[&[
-            Param::number(
+            Parameter::number(
                 "sigmax",
                 "0",
                 "1",
                 "Standard deviation of the slope along x; 0: that of sdf",
             ),
-            Param::number(
+            Parameter::number(
                 "sigmay",
                 "0",
                 "1",
                 "Standard deviation of the slope along y; 0: that of sdf",
             ),
-            Param::integer("azimuth", "0", "Equal azimuths: 0 a jump, 1 ignored, 2 smooth"),
+            Parameter::integer("azimuth", "0", "Equal azimuths: 0 a jump, 1 ignored, 2 smooth"),
         ]],
         laws: Laws::NONE,
     },
@@ -73,22 +73,22 @@ enum Azimuths {
 }
 
 impl Azimuths {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         match node.integer("azimuth") {
             0 => Ok(Self::Jump),
             1 => Ok(Self::General),
             2 => Ok(Self::Smooth),
-            other => Err(ParamError::new("azimuth", format!("{other} is not 0, 1 or 2"))),
+            other => Err(ParameterError::new("azimuth", format!("{other} is not 0, 1 or 2"))),
         }
     }
 }
 
-fn deviation(node: &Node, name: &str) -> Result<f64, ParamError> {
+fn deviation(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let sigma = node.number(name);
     if sigma >= 0.0 && sigma.is_finite() {
         return Ok(sigma);
     }
-    Err(ParamError::new(name, format!("{sigma} is negative or not finite")))
+    Err(ParameterError::new(name, format!("{sigma} is negative or not finite")))
 }
 
 struct Sancer {
@@ -130,7 +130,7 @@ impl Shadow for Sancer {
         1.0 / (1.0 + high + weight * low)
     }
 
-    fn adapt(&mut self, slopes: &dyn SlopeDistribution) -> Result<(), ParamError> {
+    fn adapt(&mut self, slopes: &dyn SlopeDistribution) -> Result<(), ParameterError> {
         for (name, sigma, axis) in
             [("sigmax", &mut self.sigma_x, 0), ("sigmay", &mut self.sigma_y, 1)]
         {
@@ -138,7 +138,7 @@ impl Shadow for Sancer {
                 continue;
             }
             let (x, y) = slopes.deviations().ok_or_else(|| {
-                ParamError::new(name, "the slope distribution has no known deviation; give one")
+                ParameterError::new(name, "the slope distribution has no known deviation; give one")
             })?;
             *sigma = if axis == 0 { x } else { y };
         }

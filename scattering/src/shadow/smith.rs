@@ -18,9 +18,9 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use super::Shadow;
 use crate::{
     Direction, Incidence,
-    geometry::Outgoing,
-    lanes::{Batch, Real, Vectors, WIDTH, filled_up, with_widest},
-    spec::{Class, Laws, Param, ParamError, Spec},
+    geometry::ScatteredRay,
+    lanes::{LaneKernel, Real, SimdLevel, WIDTH, dispatch, filled_up},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
     special::erf::{ROOT_PI, falling_and_scaled},
 };
 
@@ -32,13 +32,13 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         summary: "Gaussian surface, averaged over facet slopes",
         equation: "G = g(ti) g(ts), g = (1 - erfc(mu/(sqrt(2) w))/2)/(1 + Lambda), mu = cot theta",
         source: "smith-1967",
-        params: &[&[Param::number("w", "0.35", "1", "Rms slope along one axis")]],
+        params: &[&[Parameter::number("w", "0.35", "1", "Rms slope along one axis")]],
         laws: Laws::NONE,
     },
     build: |node| {
         let w = node.number("w");
         if !(w > 0.0 && w.is_finite()) {
-            return Err(ParamError::new("w", format!("{w} is not positive")));
+            return Err(ParameterError::new("w", format!("{w} is not positive")));
         }
         Ok(Box::new(Smith { scale: FRAC_1_SQRT_2 / w }))
     },
@@ -65,23 +65,23 @@ impl Smith {
         let whole = of_lambda * of_erfc;
         let erfc = falling * scaled * of_lambda;
         let shadowed = (whole - erfc * 0.5) / (whole + (falling * of_erfc - erfc) * 0.5);
-        (x - UNSHADOWED).choose(x.all(1.0), shadowed)
+        (x - UNSHADOWED).select(x.splat(1.0), shadowed)
     }
 }
 
 /// The fractions of several directions at a time.
-struct Fractions<'a> {
+struct UnshadowedFractions<'a> {
     smith: &'a Smith,
     of_source: f64,
     directions: &'a [[Direction; WIDTH]],
     out: &'a mut [[f64; WIDTH]],
 }
 
-impl Batch for Fractions<'_> {
+impl LaneKernel for UnshadowedFractions<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         for (directions, out) in self.directions.iter().zip(self.out) {
-            let Outgoing { sin, cos, .. } = Outgoing::several(vectors, directions);
+            let ScatteredRay { sin, cos, .. } = ScatteredRay::batch(vectors, directions);
             *out = vectors.store(self.smith.one_ray(sin, cos) * self.of_source);
         }
     }
@@ -96,11 +96,11 @@ impl Shadow for Smith {
         let of_source = self.one_ray(incidence.sin, incidence.cos);
         let (directions, rest) = directions.as_chunks();
         let (out, left) = out.as_chunks_mut();
-        with_widest(Fractions { smith: self, of_source, directions, out });
+        dispatch(UnshadowedFractions { smith: self, of_source, directions, out });
         if let Some(group) = filled_up(rest) {
             let mut fractions = [[0.0; WIDTH]];
             let out = &mut fractions;
-            with_widest(Fractions { smith: self, of_source, directions: &[group], out });
+            dispatch(UnshadowedFractions { smith: self, of_source, directions: &[group], out });
             left.copy_from_slice(&fractions[0][..rest.len()]);
         }
     }

@@ -7,8 +7,8 @@
 use super::Shadow;
 use crate::{
     Direction, Incidence,
-    optics::Table,
-    spec::{Class, Laws, Param, Spec},
+    optics::RealFunction,
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -19,14 +19,14 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         summary: "Product of two values of a table",
         equation: "G = T(ti) T(ts)",
         source: "torrance-1967",
-        params: &[&[Param::table("T", "1", "1", "Function of the polar angle in radians")]],
+        params: &[&[Parameter::table("T", "1", "1", "Function of the polar angle in radians")]],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(TableShadow { table: node.table("T").clone() })),
 };
 
 struct TableShadow {
-    table: Table,
+    table: RealFunction,
 }
 
 impl Shadow for TableShadow {

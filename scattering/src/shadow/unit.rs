@@ -17,12 +17,12 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         params: &[],
         laws: Laws::NONE,
     },
-    build: |_| Ok(Box::new(Unit)),
+    build: |_| Ok(Box::new(UnitShadow)),
 };
 
-struct Unit;
+struct UnitShadow;
 
-impl Shadow for Unit {
+impl Shadow for UnitShadow {
     fn fraction(&self, _: &Incidence, _: &Direction) -> f64 {
         1.0
     }

@@ -10,9 +10,9 @@ use std::f64::consts::PI;
 
 use super::{RENORM, SHAPE, Shape, ellipsoid, points};
 use crate::{
-    ParamError,
+    ParameterError,
     scatterer::positive,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a Chebyshev particle.
@@ -27,10 +27,10 @@ pub const SPEC: Spec<Shape> = Spec {
             &SHAPE,
             &ellipsoid::AXES,
             &[
-                Param::number("amplitude", "0.01", "1", "Amplitude relative to the ellipsoid"),
-                Param::integer("n", "8", "Half waves from start to end"),
-                Param::number("start", "0", "rad", "Polar angle at which the waves start"),
-                Param::number("end", "3.14159265", "rad", "Polar angle at which they end"),
+                Parameter::number("amplitude", "0.01", "1", "Amplitude relative to the ellipsoid"),
+                Parameter::integer("n", "8", "Half waves from start to end"),
+                Parameter::number("start", "0", "rad", "Polar angle at which the waves start"),
+                Parameter::number("end", "3.14159265", "rad", "Polar angle at which they end"),
             ],
             &RENORM,
         ],
@@ -41,7 +41,7 @@ pub const SPEC: Spec<Shape> = Spec {
         let (start, end) = (node.number("start"), node.number("end"));
         if !(0.0 <= start && start < end && end <= PI + 1e-5) {
             let problem = format!("{end} rad is not between start = {start} rad and pi");
-            return Err(ParamError::new("end", problem));
+            return Err(ParameterError::new("end", problem));
         }
         let (amplitude, waves) = (node.number("amplitude"), f64::from(node.integer("n")));
         let rate = waves * PI / (start - end);

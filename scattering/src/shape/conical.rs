@@ -5,12 +5,12 @@
 
 use super::{
     RENORM, SHAPE, Shape,
-    outline::{Corner, convex},
+    outline::{OutlineCorner, convex},
     points,
 };
 use crate::{
     scatterer::positive,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a cone.
@@ -24,12 +24,12 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Param::number("radius", "0.05", "um", "Radius of the base"),
-                Param::number("height", "0.1", "um", "Height"),
-                Param::number("offset", "0", "um", "Centre of mass below the origin"),
-                Param::number("corner_base", "0", "um", "Radius of the edge of the base"),
-                Param::number("corner_apex", "0", "um", "Radius of the apex"),
-                Param::integer("updown", "0", "0 base down, 1 apex down"),
+                Parameter::number("radius", "0.05", "um", "Radius of the base"),
+                Parameter::number("height", "0.1", "um", "Height"),
+                Parameter::number("offset", "0", "um", "Centre of mass below the origin"),
+                Parameter::number("corner_base", "0", "um", "Radius of the edge of the base"),
+                Parameter::number("corner_apex", "0", "um", "Radius of the apex"),
+                Parameter::integer("updown", "0", "0 base down, 1 apex down"),
             ],
             &RENORM,
         ],
@@ -41,9 +41,9 @@ pub const SPEC: Spec<Shape> = Spec {
         let offset = if turned { -node.number("offset") } else { node.number("offset") };
         let base = 0.25 * height + offset;
         let corners = [
-            Corner::new(0.0, base, 0.0, "offset"),
-            Corner::new(radius, base, node.number("corner_base"), "corner_base"),
-            Corner::new(0.0, base - height, node.number("corner_apex"), "corner_apex"),
+            OutlineCorner::new(0.0, base, 0.0, "offset"),
+            OutlineCorner::new(radius, base, node.number("corner_base"), "corner_base"),
+            OutlineCorner::new(0.0, base - height, node.number("corner_apex"), "corner_apex"),
         ];
         let volume = std::f64::consts::PI / 3.0 * radius * radius * height;
         let shape = convex(points(node)?, &corners)?.renormalized(node, || volume);

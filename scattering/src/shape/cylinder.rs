@@ -2,12 +2,12 @@
 
 use super::{
     RENORM, SHAPE, Shape,
-    outline::{Corner, convex},
+    outline::{OutlineCorner, convex},
     points,
 };
 use crate::{
     scatterer::positive,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a cylinder.
@@ -21,9 +21,9 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Param::number("radius", "0.05", "um", "Radius"),
-                Param::number("length", "0.1", "um", "Length"),
-                Param::number("corner", "0", "um", "Radius of the edges"),
+                Parameter::number("radius", "0.05", "um", "Radius"),
+                Parameter::number("length", "0.1", "um", "Length"),
+                Parameter::number("corner", "0", "um", "Radius of the edges"),
             ],
             &RENORM,
         ],
@@ -35,7 +35,7 @@ pub const SPEC: Spec<Shape> = Spec {
         let outline = |corner: f64| {
             let corners =
                 [(0.0, z, 0.0), (radius, z, corner), (radius, -z, corner), (0.0, -z, 0.0)]
-                    .map(|(rho, z, corner)| Corner::new(rho, z, corner, "corner"));
+                    .map(|(rho, z, corner)| OutlineCorner::new(rho, z, corner, "corner"));
             convex(points(node)?, &corners)
         };
         let volume = std::f64::consts::PI * radius * radius * length;

@@ -2,12 +2,12 @@
 
 use super::{
     RENORM, SHAPE, Shape,
-    outline::{Corner, convex},
+    outline::{OutlineCorner, convex},
     points,
 };
 use crate::{
     scatterer::positive,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a double cone.
@@ -21,10 +21,10 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Param::number("height", "0.1", "um", "Height from apex to apex"),
-                Param::number("radius", "0.05", "um", "Radius of the waist"),
-                Param::number("corner_apex", "0", "um", "Radius of both apices"),
-                Param::number("corner_waist", "0", "um", "Radius of the edge of the waist"),
+                Parameter::number("height", "0.1", "um", "Height from apex to apex"),
+                Parameter::number("radius", "0.05", "um", "Radius of the waist"),
+                Parameter::number("corner_apex", "0", "um", "Radius of both apices"),
+                Parameter::number("corner_waist", "0", "um", "Radius of the edge of the waist"),
             ],
             &RENORM,
         ],
@@ -34,9 +34,9 @@ pub const SPEC: Spec<Shape> = Spec {
         let (radius, height) = (positive(node, "radius")?, positive(node, "height")?);
         let apex = node.number("corner_apex");
         let corners = [
-            Corner::new(0.0, 0.5 * height, apex, "corner_apex"),
-            Corner::new(radius, 0.0, node.number("corner_waist"), "corner_waist"),
-            Corner::new(0.0, -0.5 * height, apex, "corner_apex"),
+            OutlineCorner::new(0.0, 0.5 * height, apex, "corner_apex"),
+            OutlineCorner::new(radius, 0.0, node.number("corner_waist"), "corner_waist"),
+            OutlineCorner::new(0.0, -0.5 * height, apex, "corner_apex"),
         ];
         let volume = std::f64::consts::PI / 3.0 * radius * radius * height;
         convex(points(node)?, &corners)?.renormalized(node, || volume).checked("corner_waist")

@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 
 use super::{SHAPE, Shape, points};
 use crate::{
-    ParamError,
+    ParameterError,
     scatterer::positive,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build an ellipsoid.
@@ -23,7 +23,7 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &AXES,
-            &[Param::number("offset", "0", "um", "Centre below the origin of the multipoles")],
+            &[Parameter::number("offset", "0", "um", "Centre below the origin of the multipoles")],
         ],
         laws: Laws::NONE,
     },
@@ -32,16 +32,16 @@ pub const SPEC: Spec<Shape> = Spec {
         let offset = node.number("offset");
         if offset.is_nan() || offset.abs() >= vertical {
             let problem = format!("{offset} um puts the origin outside of the ellipsoid");
-            return Err(ParamError::new("offset", problem));
+            return Err(ParameterError::new("offset", problem));
         }
         sampled(points(node)?, vertical, horizontal, offset).checked("vertical")
     },
 };
 
 /// The half axes.
-pub(super) const AXES: [Param; 2] = [
-    Param::number("vertical", "0.05", "um", "Half axis along the axis of revolution"),
-    Param::number("horizontal", "0.05", "um", "Half axis across it"),
+pub(super) const AXES: [Parameter; 2] = [
+    Parameter::number("vertical", "0.05", "um", "Half axis along the axis of revolution"),
+    Parameter::number("horizontal", "0.05", "um", "Half axis across it"),
 ];
 
 /// The ellipsoid at `points` nodes.

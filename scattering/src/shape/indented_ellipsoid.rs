@@ -9,9 +9,9 @@ use std::f64::consts::PI;
 
 use super::{RENORM, SHAPE, Shape, ellipsoid, points};
 use crate::{
-    ParamError,
+    ParameterError,
     scatterer::positive,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build an ellipsoid with a dent.
@@ -25,10 +25,20 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Param::number("vertical", "0.05", "um", "Half axis along the axis of revolution"),
-                Param::number("horizontal", "0", "um", "Half axis across it; 0: the vertical one"),
-                Param::number("indent", "0.01", "um", "Depth of the dent"),
-                Param::integer("updown", "0", "0 dent on top, 1 dent below"),
+                Parameter::number(
+                    "vertical",
+                    "0.05",
+                    "um",
+                    "Half axis along the axis of revolution",
+                ),
+                Parameter::number(
+                    "horizontal",
+                    "0",
+                    "um",
+                    "Half axis across it; 0: the vertical one",
+                ),
+                Parameter::number("indent", "0.01", "um", "Depth of the dent"),
+                Parameter::integer("updown", "0", "0 dent on top, 1 dent below"),
             ],
             &RENORM,
         ],
@@ -43,7 +53,7 @@ pub const SPEC: Spec<Shape> = Spec {
         let depth = node.number("indent");
         if !(depth.is_finite() && depth < vertical) {
             let problem = format!("{depth} um is not less than the half axis {vertical} um");
-            return Err(ParamError::new("indent", problem));
+            return Err(ParameterError::new("indent", problem));
         }
         let dented = Shape::sample(points(node)?, &[0.0, PI], |_, theta| {
             let (r, slope) = ellipsoid::radius(theta, vertical, horizontal, 0.0);

@@ -3,33 +3,33 @@
 use glam::DVec2;
 
 use super::Shape;
-use crate::ParamError;
+use crate::ParameterError;
 
 /// A corner of the outline at (distance from the axis, height down the axis), and the radius of
 /// the circle that rounds it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
+pub(super) struct OutlineCorner {
     pub at: DVec2,
     pub radius: f64,
     /// The parameter that sets the radius.
     pub parameter: &'static str,
 }
 
-impl Corner {
+impl OutlineCorner {
     pub(super) fn new(rho: f64, z: f64, radius: f64, parameter: &'static str) -> Self {
         Self { at: DVec2::new(rho, z), radius, parameter }
     }
 }
 
 /// A piece of the outline.
-enum Piece {
+enum OutlinePiece {
     /// n·x = d.
     Line { normal: DVec2, distance: f64 },
     /// |x − c| = R, seen from inside.
     Arc { centre: DVec2, radius: f64 },
 }
 
-impl Piece {
+impl OutlinePiece {
     /// r and dr/dθ on the ray at θ.
     fn radius(&self, theta: f64) -> (f64, f64) {
         let (sin, cos) = theta.sin_cos();
@@ -50,12 +50,12 @@ impl Piece {
 
 /// The convex body with these corners from the lower pole to the upper one; the first and the
 /// last lie on the axis.
-pub(super) fn convex(points: usize, corners: &[Corner]) -> Result<Shape, ParamError> {
-    let rounded: Vec<Rounded> =
-        (0..corners.len()).map(|at| Rounded::new(corners, at)).collect::<Result<_, _>>()?;
+pub(super) fn convex(points: usize, corners: &[OutlineCorner]) -> Result<Shape, ParameterError> {
+    let rounded: Vec<RoundedCorner> =
+        (0..corners.len()).map(|at| RoundedCorner::new(corners, at)).collect::<Result<_, _>>()?;
     let mut pieces = Vec::new();
     let mut breaks = vec![0.0];
-    let mut push = |piece: Piece, end: f64| {
+    let mut push = |piece: OutlinePiece, end: f64| {
         pieces.push(piece);
         breaks.push(end);
     };
@@ -67,17 +67,17 @@ pub(super) fn convex(points: usize, corners: &[Corner]) -> Result<Shape, ParamEr
             let normal = DVec2::new(-edge.y, edge.x);
             let distance = normal.dot(corners[at].at);
             if distance.is_nan() || distance <= 0.0 {
-                return Err(ParamError::new(corners[0].parameter, "the origin lies outside"));
+                return Err(ParameterError::new(corners[0].parameter, "the origin lies outside"));
             }
             // Corners may meet; the sum of two lengths is rounded.
             if from.leave + to.leave > from.length_after * (1.0 + 1e-12) {
                 let problem = format!("a corner of {} um does not fit", corners[at - 1].radius);
-                return Err(ParamError::new(corners[at - 1].parameter, problem));
+                return Err(ParameterError::new(corners[at - 1].parameter, problem));
             }
-            push(Piece::Line { normal, distance }, angle(to.enter));
+            push(OutlinePiece::Line { normal, distance }, angle(to.enter));
         }
         let end = if at == last { std::f64::consts::PI } else { angle(corner.exit) };
-        push(Piece::Arc { centre: corner.centre, radius: corners[at].radius }, end);
+        push(OutlinePiece::Arc { centre: corner.centre, radius: corners[at].radius }, end);
     }
     Ok(Shape::sample(points, &breaks, |piece, theta| pieces[piece].radius(theta)))
 }
@@ -88,7 +88,7 @@ fn angle(place: DVec2) -> f64 {
 }
 
 /// A corner with its circle.
-struct Rounded {
+struct RoundedCorner {
     centre: DVec2,
     /// Where the circle begins and ends.
     enter: DVec2,
@@ -98,11 +98,11 @@ struct Rounded {
     length_after: f64,
 }
 
-impl Rounded {
-    fn new(corners: &[Corner], at: usize) -> Result<Self, ParamError> {
-        let Corner { at: here, radius, parameter } = corners[at];
+impl RoundedCorner {
+    fn new(corners: &[OutlineCorner], at: usize) -> Result<Self, ParameterError> {
+        let OutlineCorner { at: here, radius, parameter } = corners[at];
         if !(radius >= 0.0 && radius.is_finite()) {
-            return Err(ParamError::new(parameter, format!("{radius} um is not a radius")));
+            return Err(ParameterError::new(parameter, format!("{radius} um is not a radius")));
         }
         let mirrored = |place: DVec2| DVec2::new(-place.x, place.y);
         let next = corners.get(at + 1).map(|corner| corner.at);

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use super::{SHAPE, Shape, points};
 use crate::{
     scatterer::positive,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 const STEP: f64 = 1e-6;
@@ -23,8 +23,13 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Param::table("table", "0.05", "um", "Distance from the origin over the angle, deg"),
-                Param::number("scale", "1", "1", "Factor of the distances"),
+                Parameter::table(
+                    "table",
+                    "0.05",
+                    "um",
+                    "Distance from the origin over the angle, deg",
+                ),
+                Parameter::number("scale", "1", "1", "Factor of the distances"),
             ],
         ],
         laws: Laws::NONE,

@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_4, LOG10_E};
 use super::SurfaceSize;
 use crate::{
     Defect,
-    spec::{Class, Laws, Param, ParamError, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
     special::gauss,
 };
 
@@ -32,8 +32,8 @@ pub const SPEC: Spec<dyn SurfaceSize> = Spec {
         equation: "n = 2 lg(e)/1e11 exp(s lg(e) (ln(c)^2-ln(d)^2)) s ln(d)/d C(0.926)/C(s), d >= 1",
         source: "iest-cc1246e-2013",
         params: &[&[
-            Param::number("cleanliness", "1000", "um", "Cleanliness level c"),
-            Param::number("slope", "0.926", "1", "Slope s of the distribution"),
+            Parameter::number("cleanliness", "1000", "um", "Cleanliness level c"),
+            Parameter::number("slope", "0.926", "1", "Slope s of the distribution"),
         ]],
         laws: Laws::NONE,
     },
@@ -41,7 +41,7 @@ pub const SPEC: Spec<dyn SurfaceSize> = Spec {
         let (level, slope) = (node.number("cleanliness"), node.number("slope"));
         for (name, value) in [("cleanliness", level), ("slope", slope)] {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(ParamError::new(name, format!("{value} is not positive")));
+                return Err(ParameterError::new(name, format!("{value} is not positive")));
             }
         }
         let compat = node.reproduces(Defect::CleanlinessDigits);
@@ -86,11 +86,12 @@ impl SurfaceSize for Cleanliness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Node, Value, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, spec};
 
     fn build(mode: Mode, slope: f64) -> Box<dyn SurfaceSize> {
-        let node =
-            Node::with_defaults(&SPEC.class, mode).with("slope", Value::Number(slope)).unwrap();
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("slope", ParameterValue::Number(slope))
+            .unwrap();
         spec::build::<dyn SurfaceSize>(&node).unwrap()
     }
 

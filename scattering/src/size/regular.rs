@@ -2,9 +2,9 @@
 
 use super::{SurfaceSize, VolumeSize};
 use crate::{
-    Node,
+    ParameterNode,
     distribution::Distribution,
-    spec::{Class, Family, Laws, Param, ParamError, Spec},
+    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
 };
 
 /// How programs name, parameterize and build a [`Regular`] distribution over a volume.
@@ -17,7 +17,7 @@ pub const VOLUME: Spec<dyn VolumeSize> = Spec {
         source: "deirmendjian-1969",
         params: &[&[
             DISTRIBUTION,
-            Param::number("numberdensity", "1E-5", "1/um^3", "Number of particles per volume"),
+            Parameter::number("numberdensity", "1E-5", "1/um^3", "Number of particles per volume"),
         ]],
         laws: Laws::NONE,
     },
@@ -34,14 +34,14 @@ pub const SURFACE: Spec<dyn SurfaceSize> = Spec {
         source: "deirmendjian-1969",
         params: &[&[
             DISTRIBUTION,
-            Param::number("numberdensity", "0.001", "1/um^2", "Number of particles per area"),
+            Parameter::number("numberdensity", "0.001", "1/um^2", "Number of particles per area"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(Regular::read(node)?)),
 };
 
-const DISTRIBUTION: Param = Param::member(
+const DISTRIBUTION: Parameter = Parameter::member(
     "distribution",
     Family::Distribution,
     "Distribution",
@@ -56,10 +56,10 @@ pub struct Regular {
 }
 
 impl Regular {
-    fn read(node: &Node) -> Result<Self, ParamError> {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let number = node.number("numberdensity");
         if !(number >= 0.0 && number.is_finite()) {
-            return Err(ParamError::new("numberdensity", format!("{number} is not a density")));
+            return Err(ParameterError::new("numberdensity", format!("{number} is not a density")));
         }
         Ok(Self { distribution: node.member::<dyn Distribution>("distribution")?, number })
     }

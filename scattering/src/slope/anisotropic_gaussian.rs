@@ -15,10 +15,10 @@
 
 use std::f64::consts::TAU;
 
-use super::{ClosedForm, Densities, SlopeDistribution, width};
+use super::{ClosedForm, DensityKernel, SlopeDistribution, width};
 use crate::{
-    lanes::{Real, WIDTH, with_widest},
-    spec::{Class, Laws, Param, ParamError, Spec},
+    lanes::{Real, WIDTH, dispatch},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -30,9 +30,9 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         equation: "S = 1/(2 pi sigmax sigmay) exp(-(zeta_x^2/sigmax^2 + zeta_y^2/sigmay^2)/2)",
         source: "cox-1954",
         params: &[&[
-            Param::number("sigmax", "0.1", "1", "Standard deviation of the slope along x"),
-            Param::number("sigmay", "0.1", "1", "Standard deviation of the slope along y"),
-            Param::integer("printed", "0", "1: the exponential that the paper prints for it"),
+            Parameter::number("sigmax", "0.1", "1", "Standard deviation of the slope along x"),
+            Parameter::number("sigmay", "0.1", "1", "Standard deviation of the slope along y"),
+            Parameter::integer("printed", "0", "1: the exponential that the paper prints for it"),
         ]],
         laws: Laws::NONE,
     },
@@ -41,7 +41,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         let printed = match node.integer("printed") {
             0 => false,
             1 => true,
-            other => return Err(ParamError::new("printed", format!("{other} is not 0 or 1"))),
+            other => return Err(ParameterError::new("printed", format!("{other} is not 0 or 1"))),
         };
         let wider = if printed { 3f64.sqrt() } else { 1.0 };
         Ok(Box::new(AnisotropicGaussian {
@@ -78,7 +78,7 @@ impl SlopeDistribution for AnisotropicGaussian {
     }
 
     fn densities(&self, zeta: &[[[f64; WIDTH]; 2]], out: &mut [[f64; WIDTH]]) {
-        with_widest(Densities { form: self, zeta, out });
+        dispatch(DensityKernel { form: self, zeta, out });
     }
 
     fn deviations(&self) -> Option<(f64, f64)> {

@@ -5,7 +5,7 @@
 //! The integral over all slopes is π r_x r_y ρ: the fraction of the area that bumps cover.
 
 use super::{SlopeDistribution, width};
-use crate::spec::{Class, Laws, Param, ParamError, Spec};
+use crate::spec::{Class, Laws, Parameter, ParameterError, Spec};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
@@ -16,31 +16,31 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         equation: "S = density (rx ry rz/(rz^2 + rx^2 zeta_x^2 + ry^2 zeta_y^2))^2",
         source: "torrance-1967",
         params: &[&[
-            Param::number("rx", "10", "um", "Half axis along x"),
-            Param::number("ry", "10", "um", "Half axis along y"),
-            Param::number("rz", "1", "um", "Half axis along z"),
-            Param::number("density", "0.0001", "1/um^2", "Bumps per area"),
+            Parameter::number("rx", "10", "um", "Half axis along x"),
+            Parameter::number("ry", "10", "um", "Half axis along y"),
+            Parameter::number("rz", "1", "um", "Half axis along z"),
+            Parameter::number("density", "0.0001", "1/um^2", "Bumps per area"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let density = node.number("density");
         if !(density >= 0.0 && density.is_finite()) {
-            return Err(ParamError::new("density", format!("{density} is not a density")));
+            return Err(ParameterError::new("density", format!("{density} is not a density")));
         }
         let (rx, ry, rz) = (width(node, "rx")?, width(node, "ry")?, width(node, "rz")?);
-        Ok(Box::new(Ellipsoid { rx, ry, rz, density }))
+        Ok(Box::new(EllipsoidSlope { rx, ry, rz, density }))
     },
 };
 
-struct Ellipsoid {
+struct EllipsoidSlope {
     rx: f64,
     ry: f64,
     rz: f64,
     density: f64,
 }
 
-impl SlopeDistribution for Ellipsoid {
+impl SlopeDistribution for EllipsoidSlope {
     fn density(&self, x: f64, y: f64) -> f64 {
         let Self { rx, ry, rz, density } = *self;
         let (u, v) = (rx * x, ry * y);

@@ -11,7 +11,7 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::{ExponentialConstants, SlopeDistribution, width};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, Spec};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
@@ -21,23 +21,23 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         summary: "Isotropic exponential density of slopes",
         equation: "S = 3/(pi s^2) exp(-sqrt(6) zeta/s)",
         source: "torrance-1967",
-        params: &[&[Param::number("s", "0.1", "1", "Total rms slope")]],
+        params: &[&[Parameter::number("s", "0.1", "1", "Total rms slope")]],
         laws: Laws::NONE,
     },
     build: |node| {
         let s = width(node, "s")?;
         let ExponentialConstants { norm, decay, .. } = ExponentialConstants::of(node);
-        Ok(Box::new(Exponential { s, peak: norm / (s * s), rate: decay / s }))
+        Ok(Box::new(ExponentialSlope { s, peak: norm / (s * s), rate: decay / s }))
     },
 };
 
-struct Exponential {
+struct ExponentialSlope {
     s: f64,
     peak: f64,
     rate: f64,
 }
 
-impl SlopeDistribution for Exponential {
+impl SlopeDistribution for ExponentialSlope {
     fn density(&self, x: f64, y: f64) -> f64 {
         self.peak * (-self.rate * (x * x + y * y).sqrt()).exp()
     }

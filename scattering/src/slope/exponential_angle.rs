@@ -9,7 +9,7 @@
 //! ([`Defect::SlopeConstants`](crate::Defect::SlopeConstants)).
 
 use super::{ExponentialConstants, SlopeDistribution, by_angle, width};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, Spec};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
@@ -19,7 +19,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         summary: "Exponential density of the tilt angle",
         equation: "S = 3 exp(-sqrt(6) theta/sigma)/(pi sigma^2 N (1+zeta^2)^2)",
         source: "torrance-1967",
-        params: &[&[Param::number("sigma", "5", "deg", "Width in tilt angle")]],
+        params: &[&[Parameter::number("sigma", "5", "deg", "Width in tilt angle")]],
         laws: Laws::NONE,
     },
     build: |node| {

@@ -9,10 +9,10 @@
 
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2};
 
-use super::{ClosedForm, Densities, SlopeDistribution, width};
+use super::{ClosedForm, DensityKernel, SlopeDistribution, width};
 use crate::{
-    lanes::{Real, WIDTH, with_widest},
-    spec::{Class, Laws, Param, Spec},
+    lanes::{Real, WIDTH, dispatch},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -20,40 +20,40 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Gaussian_Slope_Distribution_Function",
         parent: "Slope_Distribution_Function",
-        summary: "Isotropic Gaussian density of slopes",
+        summary: "Isotropic GaussianSlope density of slopes",
         equation: "S = 1/(pi s^2) exp(-zeta^2/s^2)",
         source: "torrance-1967",
-        params: &[&[Param::number("s", "0.1", "1", "Total rms slope")]],
+        params: &[&[Parameter::number("s", "0.1", "1", "Total rms slope")]],
         laws: Laws::NONE,
     },
     build: |node| {
         let s = width(node, "s")?;
         let inverse = 1.0 / (s * s);
-        Ok(Box::new(Gaussian { s, peak: FRAC_1_PI * inverse, inverse }))
+        Ok(Box::new(GaussianSlope { s, peak: FRAC_1_PI * inverse, inverse }))
     },
 };
 
-struct Gaussian {
+struct GaussianSlope {
     s: f64,
     peak: f64,
     /// 1/s².
     inverse: f64,
 }
 
-impl ClosedForm for Gaussian {
+impl ClosedForm for GaussianSlope {
     #[inline(always)]
     fn at<R: Real>(&self, x: R, y: R) -> R {
         (-(x * x + y * y) * self.inverse).exp_falling() * self.peak
     }
 }
 
-impl SlopeDistribution for Gaussian {
+impl SlopeDistribution for GaussianSlope {
     fn density(&self, x: f64, y: f64) -> f64 {
         self.at(x, y)
     }
 
     fn densities(&self, zeta: &[[[f64; WIDTH]; 2]], out: &mut [[f64; WIDTH]]) {
-        with_widest(Densities { form: self, zeta, out });
+        dispatch(DensityKernel { form: self, zeta, out });
     }
 
     fn deviations(&self) -> Option<(f64, f64)> {

@@ -9,7 +9,7 @@
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use super::{SlopeDistribution, by_angle, width};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, Spec};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
@@ -19,7 +19,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         summary: "Gaussian density of the tilt angle",
         equation: "S = exp(-theta^2/sigma^2)/(pi sigma^2 N (1+zeta^2)^2)",
         source: "torrance-1967",
-        params: &[&[Param::number("sigma", "5", "deg", "Width in tilt angle")]],
+        params: &[&[Parameter::number("sigma", "5", "deg", "Width in tilt angle")]],
         laws: Laws::NONE,
     },
     build: |node| {

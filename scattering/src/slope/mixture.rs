@@ -3,10 +3,10 @@
 //! $$ S = (1-f)\,S_1 + f\,S_2 $$
 
 use super::SlopeDistribution;
-use crate::spec::{Class, Family, Laws, Param, ParamError, Spec};
+use crate::spec::{Class, Family, Laws, Parameter, ParameterError, Spec};
 
-const fn part(name: &'static str, doc: &'static str) -> Param {
-    Param::member(
+const fn part(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::member(
         name,
         Family::Slope,
         "Slope_Distribution_Function",
@@ -26,33 +26,33 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         params: &[&[
             part("s1", "First density"),
             part("s2", "Second density"),
-            Param::number("fract", "0.5", "1", "Share of the second density"),
+            Parameter::number("fract", "0.5", "1", "Share of the second density"),
         ]],
         laws: Laws::NONE,
     },
     build: |node| {
         let fraction = node.number("fract");
         if !(0.0..=1.0).contains(&fraction) {
-            return Err(ParamError::new("fract", format!("{fraction} is not from 0 to 1")));
+            return Err(ParameterError::new("fract", format!("{fraction} is not from 0 to 1")));
         }
         let (first, second) = (node.member("s1")?, node.member("s2")?);
-        Ok(Box::new(Mixture { first, second, fraction }))
+        Ok(Box::new(SlopeMixture { first, second, fraction }))
     },
 };
 
-struct Mixture {
+struct SlopeMixture {
     first: Box<dyn SlopeDistribution>,
     second: Box<dyn SlopeDistribution>,
     fraction: f64,
 }
 
-impl Mixture {
+impl SlopeMixture {
     fn mix(&self, first: f64, second: f64) -> f64 {
         (1.0 - self.fraction) * first + self.fraction * second
     }
 }
 
-impl SlopeDistribution for Mixture {
+impl SlopeDistribution for SlopeMixture {
     fn density(&self, x: f64, y: f64) -> f64 {
         self.mix(self.first.density(x, y), self.second.density(x, y))
     }

@@ -6,8 +6,8 @@
 
 use super::SlopeDistribution;
 use crate::{
-    optics::Table,
-    spec::{Class, Laws, Param, Spec},
+    optics::RealFunction,
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -18,14 +18,14 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         summary: "Density tabulated against the slope",
         equation: "S = T(zeta)",
         source: "torrance-1967",
-        params: &[&[Param::table("T", "1", "1", "Density as a function of the slope")]],
+        params: &[&[Parameter::table("T", "1", "1", "Density as a function of the slope")]],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(TableSlope { table: node.table("T").clone() })),
 };
 
 struct TableSlope {
-    table: Table,
+    table: RealFunction,
 }
 
 impl SlopeDistribution for TableSlope {

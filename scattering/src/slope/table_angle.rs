@@ -9,8 +9,8 @@
 use super::{SlopeDistribution, by_angle};
 use crate::{
     Defect,
-    optics::Table,
-    spec::{Class, Laws, Param, Spec},
+    optics::RealFunction,
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -21,7 +21,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         summary: "Density tabulated against the tilt angle",
         equation: "S = T(theta)/(1+zeta^2)^2, theta in degrees",
         source: "torrance-1967",
-        params: &[&[Param::table(
+        params: &[&[Parameter::table(
             "T",
             "1",
             "1",
@@ -40,7 +40,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
 };
 
 struct TableAngle {
-    table: Table,
+    table: RealFunction,
     /// From radians to the argument of the table.
     degrees: f64,
 }
@@ -55,14 +55,20 @@ impl SlopeDistribution for TableAngle {
 mod tests {
     use super::*;
     use crate::{
-        Mode, Node, Value,
-        optics::{Axis, Rise},
+        Mode, ParameterNode, ParameterValue,
+        optics::{AbscissaScale, TableInterpolation},
         spec,
     };
 
     fn density(mode: Mode) -> f64 {
-        let table = Table::points(&[(0.0, 0.0), (90.0, 90.0)], Axis::Linear, Rise::Linear);
-        let node = Node::with_defaults(&SPEC.class, mode).with("T", Value::Table(table)).unwrap();
+        let table = RealFunction::points(
+            &[(0.0, 0.0), (90.0, 90.0)],
+            AbscissaScale::Linear,
+            TableInterpolation::Linear,
+        );
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("T", ParameterValue::Table(table))
+            .unwrap();
         spec::build::<dyn SlopeDistribution>(&node).unwrap().density(1.0, 0.0)
     }
 

@@ -14,12 +14,12 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         params: &[],
         laws: Laws::NONE,
     },
-    build: |_| Ok(Box::new(Unit)),
+    build: |_| Ok(Box::new(UnitSlope)),
 };
 
-struct Unit;
+struct UnitSlope;
 
-impl SlopeDistribution for Unit {
+impl SlopeDistribution for UnitSlope {
     fn density(&self, _: f64, _: f64) -> f64 {
         1.0
     }

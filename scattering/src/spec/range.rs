@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 
-use super::{Node, ParamError, Value};
-use crate::optics::{Index, Table};
+use super::{ParameterError, ParameterNode, ParameterValue};
+use crate::optics::{RealFunction, RefractiveIndex};
 
 /// Numbers beyond this are mistakes in every unit that parameters have, and their powers overflow.
 const LARGEST: f64 = 1e30;
@@ -22,24 +22,24 @@ const WAVELENGTHS: std::ops::RangeInclusive<f64> = 1e-9..=1e12;
 ///
 /// For the first number that is not finite or too large, and for an index of refraction that is
 /// nothing (0) or that has a negative part.
-pub(crate) fn check(node: &Node, lambda: f64) -> Result<(), ParamError> {
+pub(crate) fn check(node: &ParameterNode, lambda: f64) -> Result<(), ParameterError> {
     for (param, value) in node.class.parameters().zip(&node.values) {
-        let wrong = |problem: String| ParamError::new(param.name, problem);
+        let wrong = |problem: String| ParameterError::new(param.name, problem);
         match value {
-            Value::Number(x) if param.name == "lambda" => wavelength(*x).map_err(wrong)?,
-            Value::Number(x) => number(*x).map_err(wrong)?,
-            Value::Table(table) => points(table).map_err(wrong)?,
-            Value::Index(n) => index(n, lambda).map_err(wrong)?,
-            Value::Films(films) => {
+            ParameterValue::Number(x) if param.name == "lambda" => wavelength(*x).map_err(wrong)?,
+            ParameterValue::Number(x) => number(*x).map_err(wrong)?,
+            ParameterValue::Table(table) => points(table).map_err(wrong)?,
+            ParameterValue::Index(n) => index(n, lambda).map_err(wrong)?,
+            ParameterValue::Films(films) => {
                 for film in films {
                     index(&film.index, lambda).map_err(wrong)?;
                     number(film.thickness).map_err(wrong)?;
                 }
             }
-            Value::Member(inner) => {
+            ParameterValue::Member(inner) => {
                 check(inner, lambda).map_err(|error| error.inside(param.name))?;
             }
-            Value::Integer(_) | Value::Text(_) | Value::Formula(_) => {}
+            ParameterValue::Integer(_) | ParameterValue::Text(_) | ParameterValue::Formula(_) => {}
         }
     }
     Ok(())
@@ -56,7 +56,7 @@ fn wavelength(x: f64) -> Result<(), String> {
     if WAVELENGTHS.contains(&x) { Ok(()) } else { Err(format!("{x} um is not a wavelength")) }
 }
 
-fn points(table: &Table) -> Result<(), String> {
+fn points(table: &RealFunction) -> Result<(), String> {
     table.ordinates().try_for_each(number)?;
     if table.can_interpolate() {
         return Ok(());
@@ -66,7 +66,7 @@ fn points(table: &Table) -> Result<(), String> {
         .into())
 }
 
-fn index(index: &Index, lambda: f64) -> Result<(), String> {
+fn index(index: &RefractiveIndex, lambda: f64) -> Result<(), String> {
     let Complex64 { re: n, im: k } = index.at(lambda);
     if n.is_finite() && n >= 0.0 && k < 0.0 {
         return Err(format!(

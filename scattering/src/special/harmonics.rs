@@ -49,20 +49,20 @@ impl Scalar for Complex64 {
 pub struct Harmonics {
     l_max: usize,
     m_max: usize,
-    orders: Vec<Order>,
+    orders: Vec<OrderRecurrence>,
 }
 
 /// The recurrence over l of one order m.
 #[derive(Clone, Debug)]
-struct Order {
+struct OrderRecurrence {
     /// Q_m^m over sin^{m−1} θ.
     first: f64,
     /// Q_l = a cos θ Q_{l−1} − b Q_{l−2}, and c of τ, for l from m.
-    steps: Vec<Step>,
+    steps: Vec<RecurrenceStep>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Step {
+struct RecurrenceStep {
     a: f64,
     b: f64,
     c: f64,
@@ -77,7 +77,10 @@ impl Harmonics {
             if m <= l_max {
                 first = (1..=m).map(|k| (1.0 + 0.5 / k as f64).sqrt()).product();
             }
-            Order { first, steps: (m..=l_max).map(|l| Step::new(l as f64, m as f64)).collect() }
+            OrderRecurrence {
+                first,
+                steps: (m..=l_max).map(|l| RecurrenceStep::new(l as f64, m as f64)).collect(),
+            }
         };
         Self { l_max, m_max, orders: (0..=m_max).map(order).collect() }
     }
@@ -135,7 +138,7 @@ impl Harmonics {
     }
 }
 
-impl Step {
+impl RecurrenceStep {
     fn new(l: f64, m: f64) -> Self {
         let d = (l - m) * (l + m);
         let e = (l - 1.0 - m) * (l - 1.0 + m);

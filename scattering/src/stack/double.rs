@@ -1,7 +1,7 @@
 //! Two films.
 
 use super::{Film, Stack, check_thickness};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, Spec};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<Stack> = Spec {
@@ -12,10 +12,10 @@ pub const SPEC: Spec<Stack> = Spec {
         equation: "(n_1, t_1), (n_2, t_2), film 1 next to the substrate",
         source: "born-1999",
         params: &[&[
-            Param::index("material1", "(1.5,0)", "Index of the buried film"),
-            Param::number("thickness1", "0.1", "um", "Thickness of the buried film"),
-            Param::index("material2", "(1.5,0)", "Index of the exposed film"),
-            Param::number("thickness2", "0.1", "um", "Thickness of the exposed film"),
+            Parameter::index("material1", "(1.5,0)", "Index of the buried film"),
+            Parameter::number("thickness1", "0.1", "um", "Thickness of the buried film"),
+            Parameter::index("material2", "(1.5,0)", "Index of the exposed film"),
+            Parameter::number("thickness2", "0.1", "um", "Thickness of the exposed film"),
         ]],
         laws: Laws::NONE,
     },

@@ -20,8 +20,8 @@ use num_complex::Complex64;
 use super::{Film, Stack, check_thickness};
 use crate::{
     Defect,
-    optics::{Axis, Index, Rise, Table},
-    spec::{Class, Laws, Node, Param, ParamError, Spec},
+    optics::{AbscissaScale, RealFunction, RefractiveIndex, TableInterpolation},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -33,10 +33,10 @@ pub const SPEC: Spec<Stack> = Spec {
         equation: "eps_j = (1-f) eps_start + f eps_end, f = (j+1/2)/N",
         source: "born-1999",
         params: &[&[
-            Param::index("start", "(1.5,0)", "Index next to the substrate"),
-            Param::index("end", "(1,0)", "Index on the outside"),
-            Param::number("thickness", "0.1", "um", "Total thickness"),
-            Param::integer("steps", "5", "Number of films, at least 2"),
+            Parameter::index("start", "(1.5,0)", "Index next to the substrate"),
+            Parameter::index("end", "(1,0)", "Index on the outside"),
+            Parameter::number("thickness", "0.1", "um", "Total thickness"),
+            Parameter::integer("steps", "5", "Number of films, at least 2"),
         ]],
         laws: Laws::NONE,
     },
@@ -46,18 +46,18 @@ pub const SPEC: Spec<Stack> = Spec {
 /// Films of which a gradient can be made; more do not change what light sees.
 const MOST_STEPS: i32 = 10_000;
 
-fn graded(node: &Node) -> Result<Stack, ParamError> {
+fn graded(node: &ParameterNode) -> Result<Stack, ParameterError> {
     let steps = node.integer("steps");
     if !(2..=MOST_STEPS).contains(&steps) {
         let problem = format!("{steps} is not from 2 to {MOST_STEPS}");
-        return Err(ParamError::new("steps", problem));
+        return Err(ParameterError::new("steps", problem));
     }
     let thickness = check_thickness("thickness", node.number("thickness"))? / f64::from(steps);
     let (start, end) = (node.index("start"), node.index("end"));
     let grid = wavelengths(start, end).filter(|_| node.reproduces(Defect::GradedFilmGrid));
     let film = |j: i32| {
         let f = (f64::from(j) + 0.5) / f64::from(steps);
-        let exact = Mixture { start: start.clone(), end: end.clone(), f };
+        let exact = IndexMixture { start: start.clone(), end: end.clone(), f };
         let index = match &grid {
             Some(grid) => exact.tabulated(grid),
             None => exact.index(),
@@ -68,50 +68,50 @@ fn graded(node: &Node) -> Result<Stack, ParamError> {
 }
 
 /// A mixture of two materials with the fraction `f` of `end`.
-struct Mixture {
-    start: Index,
-    end: Index,
+struct IndexMixture {
+    start: RefractiveIndex,
+    end: RefractiveIndex,
     f: f64,
 }
 
-impl Mixture {
+impl IndexMixture {
     fn at(&self, lambda: f64) -> Complex64 {
         let (a, b) = (self.start.at(lambda), self.end.at(lambda));
         (a * a * (1.0 - self.f) + b * b * self.f).sqrt()
     }
 
-    fn tabulated(&self, grid: &[f64]) -> Index {
+    fn tabulated(&self, grid: &[f64]) -> RefractiveIndex {
         let column = |part: fn(Complex64) -> f64| {
             let rows: Vec<_> = grid.iter().map(|&x| (x, part(self.at(x)))).collect();
-            Table::points(&rows, Axis::Linear, Rise::Linear)
+            RealFunction::points(&rows, AbscissaScale::Linear, TableInterpolation::Linear)
         };
-        Index { n: column(|z| z.re), k: column(|z| z.im) }
+        RefractiveIndex { n: column(|z| z.re), k: column(|z| z.im) }
     }
 
-    fn index(self) -> Index {
+    fn index(self) -> RefractiveIndex {
         let constant = [&self.start, &self.end]
             .iter()
             .all(|index| is_constant(&index.n) && is_constant(&index.k));
         if constant {
             let z = self.at(1.0);
-            return Index::constant(z.re, z.im);
+            return RefractiveIndex::constant(z.re, z.im);
         }
         let real = Arc::new(self);
         let imaginary = real.clone();
-        Index {
-            n: Table::Formula(Arc::new(move |x| real.at(x).re)),
-            k: Table::Formula(Arc::new(move |x| imaginary.at(x).im)),
+        RefractiveIndex {
+            n: RealFunction::Formula(Arc::new(move |x| real.at(x).re)),
+            k: RealFunction::Formula(Arc::new(move |x| imaginary.at(x).im)),
         }
     }
 }
 
-fn is_constant(table: &Table) -> bool {
-    matches!(table, Table::Constant(_))
+fn is_constant(table: &RealFunction) -> bool {
+    matches!(table, RealFunction::Constant(_))
 }
 
 /// The library's grid, or nothing if neither material is tabulated.
-fn wavelengths(start: &Index, end: &Index) -> Option<Vec<f64>> {
-    let extents = [&start.n, &start.k, &end.n, &end.k].map(Table::extent);
+fn wavelengths(start: &RefractiveIndex, end: &RefractiveIndex) -> Option<Vec<f64>> {
+    let extents = [&start.n, &start.k, &end.n, &end.k].map(RealFunction::extent);
     let count = extents.iter().flatten().map(|e| e.0).max()?;
     // A constant counts as one point at wavelength 0.
     let range = |x: Option<(usize, f64, f64)>| x.map_or((0.0, 0.0), |(_, a, b)| (a, b));
@@ -124,18 +124,20 @@ fn wavelengths(start: &Index, end: &Index) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, Value, spec};
+    use crate::{Mode, ParameterValue, spec};
 
-    fn tabulated() -> Index {
+    fn tabulated() -> RefractiveIndex {
         let n = [(0.4, 1.6), (0.5, 1.55), (0.6, 1.52), (0.7, 1.5)];
         let k = [(0.4, 0.0), (0.5, 0.0), (0.6, 0.0), (0.7, 0.0)];
-        let table = |rows: &[_]| Table::points(rows, Axis::Linear, Rise::Linear);
-        Index { n: table(&n), k: table(&k) }
+        let table = |rows: &[_]| {
+            RealFunction::points(rows, AbscissaScale::Linear, TableInterpolation::Linear)
+        };
+        RefractiveIndex { n: table(&n), k: table(&k) }
     }
 
     fn stack(mode: Mode) -> Stack {
-        let node = Node::with_defaults(&SPEC.class, mode)
-            .with("start", Value::Index(tabulated()))
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("start", ParameterValue::Index(tabulated()))
             .unwrap();
         *spec::build::<Stack>(&node).unwrap()
     }
@@ -163,8 +165,9 @@ mod tests {
 
     #[test]
     fn fewer_than_two_steps_are_refused() {
-        let node =
-            Node::with_defaults(&SPEC.class, Mode::Sound).with("steps", Value::Integer(1)).unwrap();
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+            .with("steps", ParameterValue::Integer(1))
+            .unwrap();
         assert_eq!(spec::build::<Stack>(&node).unwrap_err().parameter, "steps");
     }
 }

@@ -1,7 +1,7 @@
 //! Films listed one by one.
 
 use super::{Stack, check_thickness};
-use crate::spec::{Class, Kind, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, ParameterKind, Spec};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<Stack> = Spec {
@@ -11,9 +11,9 @@ pub const SPEC: Spec<Stack> = Spec {
         summary: "Films listed one by one",
         equation: "(n_1, t_1), (n_2, t_2), ... from the substrate outwards",
         source: "born-1999",
-        params: &[&[Param {
+        params: &[&[Parameter {
             name: "stack",
-            kind: Kind::Films,
+            kind: ParameterKind::Films,
             default: "",
             unit: "um",
             doc: "Films as pairs of material and thickness, in order of growth",
@@ -32,18 +32,18 @@ pub const SPEC: Spec<Stack> = Spec {
 #[cfg(test)]
 mod tests {
     use crate::{
-        Mode, Node, Value,
-        optics::Index,
+        Mode, ParameterNode, ParameterValue,
+        optics::RefractiveIndex,
         spec,
         stack::{Film, Stack},
     };
 
     #[test]
     fn films_keep_their_order() {
-        let film = |n, thickness| Film { index: Index::constant(n, 0.0), thickness };
+        let film = |n, thickness| Film { index: RefractiveIndex::constant(n, 0.0), thickness };
         let films = vec![film(2.3, 0.1), film(1.4, 0.2)];
-        let node = Node::with_defaults(&super::SPEC.class, Mode::Sound)
-            .with("stack", Value::Films(films))
+        let node = ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)
+            .with("stack", ParameterValue::Films(films))
             .unwrap();
         let stack = spec::build::<Stack>(&node).unwrap().at(0.5);
         assert_eq!(

@@ -1,7 +1,7 @@
 //! One film.
 
 use super::{Film, Stack, check_thickness};
-use crate::spec::{Class, Laws, Param, Spec};
+use crate::spec::{Class, Laws, Parameter, Spec};
 
 /// How programs name, parameterize and build it.
 pub const SPEC: Spec<Stack> = Spec {
@@ -12,8 +12,8 @@ pub const SPEC: Spec<Stack> = Spec {
         equation: "(n, t)",
         source: "born-1999",
         params: &[&[
-            Param::index("material", "(1.5,0)", "Index of the film"),
-            Param::number("thickness", "0.1", "um", "Thickness of the film"),
+            Parameter::index("material", "(1.5,0)", "Index of the film"),
+            Parameter::number("thickness", "0.1", "um", "Thickness of the film"),
         ]],
         laws: Laws::NONE,
     },

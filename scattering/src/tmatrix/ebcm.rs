@@ -18,7 +18,7 @@
 
 use num_complex::Complex64;
 
-use super::{Matrix, TMatrix, is_finite, solve};
+use super::{ComplexMatrix, TMatrix, is_finite, solve};
 use crate::{
     shape::Shape,
     special::{
@@ -39,7 +39,7 @@ impl TMatrix {
         l_max: usize,
         m_max: usize,
     ) -> Option<Self> {
-        let surface = Surface::new(shape, index, k, l_max, m_max);
+        let surface = ParticleSurface::new(shape, index, k, l_max, m_max);
         let blocks = (0..=m_max).map(|m| surface.block(m)).collect::<Option<_>>()?;
         Some(Self { l_max, blocks })
     }
@@ -47,37 +47,37 @@ impl TMatrix {
 
 /// z, (kr z)'/kr and z/kr of one l at one node.
 #[derive(Clone, Copy, Default)]
-struct Radial {
+struct RadialFunctions {
     z: Complex64,
     slope: Complex64,
     over: Complex64,
 }
 
 /// Everything that the integrals need at one node.
-struct Node {
+struct BoundaryNode {
     /// r² sin θ dθ times k².
     area: f64,
     /// r'/r.
     lean: f64,
-    inside: Vec<Radial>,
-    outgoing: Vec<Radial>,
-    regular: Vec<Radial>,
+    inside: Vec<RadialFunctions>,
+    outgoing: Vec<RadialFunctions>,
+    regular: Vec<RadialFunctions>,
     /// (τ, μ, P̃) by order, l within it.
     angular: Vec<Vec<(f64, f64, f64)>>,
 }
 
-struct Surface {
+struct ParticleSurface {
     index: Complex64,
     l_max: usize,
-    nodes: Vec<Node>,
+    nodes: Vec<BoundaryNode>,
     /// One over the size of the radial functions inside and outgoing, by l.
     scales: Vec<(f64, f64)>,
 }
 
-impl Surface {
+impl ParticleSurface {
     fn new(shape: &Shape, index: Complex64, k: f64, l_max: usize, m_max: usize) -> Self {
         let harmonics = Harmonics::new(l_max, m_max);
-        let node = |point: &crate::shape::Node| {
+        let node = |point: &crate::shape::SurfaceNode| {
             let (sin, cos) = point.theta.sin_cos();
             let x = k * point.r;
             let (psi, chi) = riccati::real(l_max, x);
@@ -91,7 +91,7 @@ impl Surface {
                 let p = if m == 0 { zonal[l] } else { mu * sin / m as f64 };
                 angular[m].push((tau, mu, p));
             });
-            Node {
+            BoundaryNode {
                 area: x * x * sin * point.weight,
                 lean: point.slope / point.r,
                 inside: radial(&inside, index * x),
@@ -100,9 +100,9 @@ impl Surface {
                 angular,
             }
         };
-        let nodes: Vec<Node> = shape.nodes().iter().map(node).collect();
+        let nodes: Vec<BoundaryNode> = shape.nodes().iter().map(node).collect();
         let scale = |l: usize| {
-            let largest = |of: fn(&Node) -> &[Radial]| {
+            let largest = |of: fn(&BoundaryNode) -> &[RadialFunctions]| {
                 let sizes = nodes.iter().map(|node| of(node)[l].z.norm());
                 sizes.fold(0.0, f64::max).recip()
             };
@@ -113,7 +113,7 @@ impl Surface {
     }
 
     /// T_m.
-    fn block(&self, m: usize) -> Option<Matrix> {
+    fn block(&self, m: usize) -> Option<ComplexMatrix> {
         let size = self.l_max + 1 - Harmonics::l_min(m);
         let [q, q0] = self.systems(m);
         if !(is_finite(&q) && is_finite(&q0)) {
@@ -122,7 +122,7 @@ impl Surface {
         // X Q = Q⁰, transposed.
         let x = solve(&q.transpose().to_owned(), &q0.transpose().to_owned());
         let l = |at: usize| Harmonics::l_min(m) + at % size;
-        let t = Matrix::from_fn(2 * size, 2 * size, |row, column| {
+        let t = ComplexMatrix::from_fn(2 * size, 2 * size, |row, column| {
             // From (M, N) to (e, h) = (kN, ikM), and from normalized waves to ours.
             let (to, from) = (l(row), l(column));
             let turn = match (row < size, column < size) {
@@ -138,10 +138,10 @@ impl Surface {
     }
 
     /// Q and Q⁰, M before N, columns scaled by the waves inside and rows of Q by those outside.
-    fn systems(&self, m: usize) -> [Matrix; 2] {
+    fn systems(&self, m: usize) -> [ComplexMatrix; 2] {
         let l_min = Harmonics::l_min(m);
         let size = self.l_max + 1 - l_min;
-        let mut systems = [(); 2].map(|()| Matrix::zeros(2 * size, 2 * size));
+        let mut systems = [(); 2].map(|()| ComplexMatrix::zeros(2 * size, 2 * size));
         for row in 0..size {
             for column in 0..size {
                 let (l, inner) = (l_min + row, l_min + column);
@@ -196,10 +196,10 @@ impl Surface {
 }
 
 /// z = f/x, f'/x and f/x² of a Riccati–Bessel function f for l from 0; those of l = 0 are not used.
-fn radial(f: &[Complex64], x: Complex64) -> Vec<Radial> {
+fn radial(f: &[Complex64], x: Complex64) -> Vec<RadialFunctions> {
     let each = |l: usize| {
         let slope = if l == 0 { Complex64::ZERO } else { f[l - 1] - f[l] * (l as f64) / x };
-        Radial { z: f[l] / x, slope: slope / x, over: f[l] / (x * x) }
+        RadialFunctions { z: f[l] / x, slope: slope / x, over: f[l] / (x * x) }
     };
     (0..f.len()).map(each).collect()
 }
@@ -245,7 +245,9 @@ mod tests {
                 let l = (Harmonics::l_min(m) + at % size) as f64;
                 (l * (l + 1.0)).sqrt()
             };
-            let t = Matrix::from_fn(2 * size, 2 * size, |i, j| block[(i, j)] * norm(i) / norm(j));
+            let t = ComplexMatrix::from_fn(2 * size, 2 * size, |i, j| {
+                block[(i, j)] * norm(i) / norm(j)
+            });
             let lost = &t + t.adjoint() + faer::Scale(Complex64::from(2.0)) * (t.adjoint() * &t);
             // The low multipoles; the last ones are cut off.
             for at in [0, 1, size, size + 1] {

@@ -22,7 +22,7 @@ use num_complex::Complex64;
 
 use crate::{
     Jones,
-    optics::film::Pair,
+    optics::film::SpAmplitudes,
     special::harmonics::{Harmonics, Scalar},
 };
 
@@ -30,22 +30,22 @@ const I: Complex64 = Complex64::I;
 
 /// A plane wave and its mirror image.
 #[derive(Clone, Copy, Debug)]
-pub struct Beam {
+pub struct MirroredWave {
     /// Cosine of the angle from the axis; complex for a wave that fades along it.
     pub cos: Complex64,
     /// Sine of that angle.
     pub sin: f64,
     /// Amplitudes of the beam itself.
-    pub direct: Pair,
+    pub direct: SpAmplitudes,
     /// Amplitudes of its mirror image.
-    pub mirrored: Pair,
+    pub mirrored: SpAmplitudes,
 }
 
-impl Beam {
+impl MirroredWave {
     /// A beam of unit amplitude without a mirror image.
     pub fn free(cos: f64, sin: f64) -> Self {
-        let one = Pair { s: Complex64::ONE, p: Complex64::ONE };
-        Self { cos: cos.into(), sin, direct: one, mirrored: Pair::default() }
+        let one = SpAmplitudes { s: Complex64::ONE, p: Complex64::ONE };
+        Self { cos: cos.into(), sin, direct: one, mirrored: SpAmplitudes::default() }
     }
 
     /// direct − mirrored and direct + mirrored, each (p, s).
@@ -66,7 +66,7 @@ pub struct Multipole {
 
 /// k times the coefficients of the regular waves that `beam` is made of, for m ≥ 0 in the order
 /// of [`Harmonics::visit`].
-pub fn regular(harmonics: &Harmonics, beam: &Beam) -> Vec<Multipole> {
+pub fn regular(harmonics: &Harmonics, beam: &MirroredWave) -> Vec<Multipole> {
     let [minus, plus] = beam.combined();
     let mut out = Vec::new();
     harmonics.visit(beam.cos, beam.sin.into(), |m, l, tau, mu| {
@@ -84,14 +84,14 @@ fn power_of_i(l: usize) -> Complex64 {
     [Complex64::ONE, I, -Complex64::ONE, -I][l % 4]
 }
 
-/// Outgoing multipoles, prepared for their sum in any direction.
+/// OutgoingMultipoles multipoles, prepared for their sum in any direction.
 #[derive(Clone, Debug)]
-pub struct Outgoing {
+pub struct OutgoingMultipoles {
     even: Vec<[Complex64; 4]>,
     odd: Option<Vec<[Complex64; 4]>>,
 }
 
-impl Outgoing {
+impl OutgoingMultipoles {
     /// The multipoles `w` of m ≥ 0, each with (m, l), and those of −m that mirror symmetry asks
     /// for: e of p and h of s are even in m, the others odd.
     pub fn symmetric(w: impl Iterator<Item = (usize, usize, Multipole)>) -> Self {
@@ -118,7 +118,12 @@ impl Outgoing {
     }
 
     /// The amplitude matrix in the direction of `beam` at the azimuth with this cosine and sine.
-    pub fn amplitude(&self, harmonics: &Harmonics, beam: &Beam, (c, s): (f64, f64)) -> Jones {
+    pub fn amplitude(
+        &self,
+        harmonics: &Harmonics,
+        beam: &MirroredWave,
+        (c, s): (f64, f64),
+    ) -> Jones {
         if beam.cos.im == 0.0 {
             self.sum(harmonics, beam, beam.cos.re, beam.sin, Complex64::new(c, s))
         } else {
@@ -129,7 +134,7 @@ impl Outgoing {
     fn sum<T: Scalar>(
         &self,
         harmonics: &Harmonics,
-        beam: &Beam,
+        beam: &MirroredWave,
         cos: T,
         sin: T,
         turn: Complex64,
@@ -143,7 +148,7 @@ impl Outgoing {
             let sets = [(Some(&self.even), along, across), (self.odd.as_ref(), across, along)];
             for (set, diagonal, off) in sets {
                 let Some(set) = set else { continue };
-                let mut sums = Sums::default();
+                let mut sums = DegreeSums::default();
                 let mut at = set[start..start + size].iter();
                 harmonics.order(m, power, cos, sin, |l, tau, mu| {
                     if let Some(w) = at.next() {
@@ -170,9 +175,9 @@ fn turned(l: usize, w: &Multipole) -> [Complex64; 4] {
 
 /// Sums over l of one order: those that go with direct − mirrored, and with direct + mirrored.
 #[derive(Default)]
-struct Sums([[Complex64; 4]; 2]);
+struct DegreeSums([[Complex64; 4]; 2]);
 
-impl Sums {
+impl DegreeSums {
     #[inline]
     fn add<T: Scalar>(&mut self, parity: usize, w: &[Complex64; 4], tau: T, mu: T) {
         let [a, b, c, d] = *w;
@@ -215,9 +220,9 @@ mod tests {
         let coefficients = layered::coefficients(&[(Complex64::new(1.6, 0.2), 2.0)], 9);
         let t = TMatrix::sphere(&coefficients);
         let harmonics = Harmonics::new(9, 9);
-        let series = series::Series::new(&coefficients);
+        let series = series::MieSeries::new(&coefficients);
         let (i, o, phi) = (0.4f64, 1.9f64, 0.0f64);
-        let incoming = regular(&harmonics, &Beam::free(i.cos(), i.sin()));
+        let incoming = regular(&harmonics, &MirroredWave::free(i.cos(), i.sin()));
         let mut order = Vec::new();
         harmonics.visit(0.5, 0.5, |m, l, _, _| order.push((m, l)));
         let scattered = order.iter().zip(&incoming).map(|(&(m, l), v)| {
@@ -228,8 +233,8 @@ mod tests {
             };
             (m, l, Multipole { p: apply(v.p), s: apply(v.s) })
         });
-        let outgoing = Outgoing::symmetric(scattered);
-        let beam = Beam::free(o.cos(), o.sin());
+        let outgoing = OutgoingMultipoles::symmetric(scattered);
+        let beam = MirroredWave::free(o.cos(), o.sin());
         let j = outgoing.amplitude(&harmonics, &beam, (phi.cos(), phi.sin()));
         let (s1, s2) = series.amplitudes((o - i).cos());
         // In the plane of both beams s is ⊥ and p is ∥, and nothing is crossed.

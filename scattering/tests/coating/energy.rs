@@ -17,9 +17,9 @@ const SETS: usize = 1000;
 const ALL: f64 = 1.0 + 1e-6;
 
 /// Numbers from 0 to 1, always the same (a linear congruential generator of Knuth's).
-struct Random(u64);
+struct RandomDirections(u64);
 
-impl Random {
+impl RandomDirections {
     fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
@@ -45,7 +45,7 @@ fn across_threads(sets: usize, run: impl Fn(usize) -> Option<String> + Sync) -> 
 #[test]
 fn no_random_surface_returns_more_light_than_came() {
     let wrong = across_threads(SETS, |case| {
-        let mut random = Random(case as u64 + 1);
+        let mut random = RandomDirections(case as u64 + 1);
         // The first numbers of neighbouring seeds are alike.
         for _ in 0..8 {
             random.between(0.0, 1.0);
@@ -76,7 +76,7 @@ fn no_random_surface_returns_more_light_than_came() {
 #[test]
 fn no_random_coating_returns_more_light_than_came() {
     let wrong = across_threads(SETS, |case| {
-        let mut random = Random(case as u64 + 7_000_001);
+        let mut random = RandomDirections(case as u64 + 7_000_001);
         for _ in 0..8 {
             random.between(0.0, 1.0);
         }
@@ -90,7 +90,7 @@ fn no_random_coating_returns_more_light_than_came() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-fn random_coating(case: usize, random: &mut Random) -> Vec<(&'static str, String)> {
+fn random_coating(case: usize, random: &mut RandomDirections) -> Vec<(&'static str, String)> {
     let mut draw = |low, high| random.between(low, high).to_string();
     let coat = draw(1.0, 2.2);
     let k = if case % 5 == 4 { draw(0.0, 1e-3) } else { "0".to_owned() };

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
-use scattering::{Basis, Geometry, Limit, Mode, Mueller, models};
+use scattering::{Basis, Geometry, Mode, ModelLimit, Mueller, models};
 
 use super::{LOST, build, geometries, hemisphere, most, pigmented, reference::node};
 
@@ -128,14 +128,14 @@ fn a_model_beyond_its_limits_says_so() {
     };
     assert!(noted(&[]).is_empty());
     // 30 spheres of radius 0.1 µm in a µm³ fill an eighth of it.
-    assert_eq!(noted(&[("particle_density", "30")]), [Limit::ParticlesTooDense.into()]);
+    assert_eq!(noted(&[("particle_density", "30")]), [ModelLimit::ParticlesTooDense.into()]);
     let tilted = [
         ("sdf", "Gaussian_Slope_Distribution_Function"),
         ("sdf.s", "0.3"),
         ("flake_density", "0.001"),
     ];
-    assert_eq!(noted(&tilted), [Limit::FlakesTooDense.into()]);
-    assert_eq!(noted(&[("correlation", "0")]), [Limit::LostBetweenFlakes.into()]);
+    assert_eq!(noted(&tilted), [ModelLimit::FlakesTooDense.into()]);
+    assert_eq!(noted(&[("correlation", "0")]), [ModelLimit::LostBetweenFlakes.into()]);
 }
 
 #[test]

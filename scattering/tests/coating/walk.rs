@@ -12,7 +12,7 @@ use num_complex::Complex64;
 
 /// What the coating is made of. Gaps and flakes are columns that light does not leave.
 #[derive(Clone, Debug)]
-pub(super) struct Coat {
+pub(super) struct WalkCoat {
     /// Index of the binder.
     pub(super) n: f64,
     /// κL.
@@ -20,14 +20,14 @@ pub(super) struct Coat {
     /// Standard deviations of the slopes of the surface.
     pub(super) surface: (f64, f64),
     /// Flakes, if there are any.
-    pub(super) flakes: Option<Sheet>,
+    pub(super) flakes: Option<WalkSheet>,
     /// The body.
-    pub(super) body: Body,
+    pub(super) body: WalkBody,
 }
 
 /// Flakes: facets with these slopes in a binder.
 #[derive(Clone, Debug)]
-pub(super) struct Sheet {
+pub(super) struct WalkSheet {
     /// τ.
     pub(super) depth: f64,
     pub(super) slopes: (f64, f64),
@@ -39,7 +39,7 @@ pub(super) struct Sheet {
 
 /// Spheres in front of a backing that scatters all light diffusely.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Body {
+pub(super) struct WalkBody {
     pub(super) depth: f64,
     pub(super) albedo: f64,
     pub(super) g: f64,
@@ -48,12 +48,12 @@ pub(super) struct Body {
 
 /// Numbers from 0 to 1 from a key and a counter (the finalizer of SplitMix64: G. L. Steele et al.,
 /// OOPSLA 2014): ray k draws the same numbers whatever ray was walked before.
-pub(super) struct Random {
+pub(super) struct WalkRandom {
     key: u64,
     counter: u64,
 }
 
-impl Random {
+impl WalkRandom {
     pub(super) fn new(seed: u64, ray: u64) -> Self {
         Self { key: mixed(mixed(seed).wrapping_add(ray)), counter: 0 }
     }
@@ -79,7 +79,7 @@ fn mixed(mut z: u64) -> u64 {
 
 /// Light of unit intensity.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ray {
+pub(super) struct WalkRay {
     /// Where it goes, in the frame of the sample.
     pub(super) k: DVec3,
     /// First axis of its Stokes vector; the second is k × e.
@@ -88,7 +88,7 @@ pub(super) struct Ray {
     q: [f64; 3],
 }
 
-impl Ray {
+impl WalkRay {
     /// A beam with Q = `q` in the basis of the plane of incidence, on a sample turned by
     /// `rotation`.
     pub(super) fn incident(theta: f64, rotation: f64, q: f64) -> Self {
@@ -132,7 +132,7 @@ pub(super) fn turned(v: DVec3, angle: f64) -> DVec3 {
 }
 
 /// Amplitudes of a facet.
-struct Facet {
+struct WalkFacet {
     reflected: (Complex64, Complex64),
     /// Over the root of the intensity that goes on; nothing if all of it is absorbed.
     passed: Option<((Complex64, Complex64), DVec3)>,
@@ -147,7 +147,7 @@ fn fresnel(a: Complex64, b: Complex64, cos_a: Complex64) -> [(Complex64, Complex
 }
 
 /// The boundary of two clear media for light along `k` onto the facet `m` that faces it.
-fn boundary(from: f64, to: f64, k: DVec3, m: DVec3) -> Facet {
+fn boundary(from: f64, to: f64, k: DVec3, m: DVec3) -> WalkFacet {
     let cos = -k.dot(m);
     let sin2 = (from / to).powi(2) * (1.0 - cos * cos);
     let [reflected, (s, p)] = fresnel(from.into(), to.into(), cos.into());
@@ -156,17 +156,17 @@ fn boundary(from: f64, to: f64, k: DVec3, m: DVec3) -> Facet {
         let power = (to * inside / (from * cos)).sqrt();
         ((s * power, p * power), k * (from / to) + m * (from / to * cos - inside))
     });
-    Facet { reflected, passed }
+    WalkFacet { reflected, passed }
 }
 
 /// A flake in the binder.
-fn flake(sheet: &Sheet, n: f64, k: DVec3, m: DVec3) -> Facet {
+fn flake(sheet: &WalkSheet, n: f64, k: DVec3, m: DVec3) -> WalkFacet {
     let cos = Complex64::from(-k.dot(m));
     let n = Complex64::from(n);
     let clear = sheet.core == n;
     let Some((index, thickness)) = sheet.film else {
         let [r, t] = fresnel(n, sheet.core, cos);
-        return Facet { reflected: r, passed: clear.then_some((t, k)) };
+        return WalkFacet { reflected: r, passed: clear.then_some((t, k)) };
     };
     let film = Complex64::from(index);
     let inside = (1.0 - (n / film).powi(2) * (1.0 - cos * cos)).sqrt();
@@ -179,7 +179,7 @@ fn flake(sheet: &Sheet, n: f64, k: DVec3, m: DVec3) -> Facet {
         ((r1 + r2 * phase * phase) / trips, t1 * t2 * phase / trips)
     };
     let (s, p) = (both(|x| x.0), both(|x| x.1));
-    Facet { reflected: (s.0, p.0), passed: clear.then_some(((s.1, p.1), k)) }
+    WalkFacet { reflected: (s.0, p.0), passed: clear.then_some(((s.1, p.1), k)) }
 }
 
 /// (e^{−a²}/(√π a) − erfc a)/2, −1 less that of the reversed direction for a < 0.
@@ -195,12 +195,12 @@ fn lambda(k: DVec3, up: f64, slopes: (f64, f64)) -> f64 {
 /// Facets met after each other: the light that leaves above or below, or nothing if it is
 /// absorbed. `above` says where it comes from.
 fn sheet_walk(
-    mut ray: Ray,
+    mut ray: WalkRay,
     mut above: bool,
     slopes: (f64, f64),
-    facet: &dyn Fn(bool, DVec3, DVec3) -> Facet,
-    random: &mut Random,
-) -> Option<(Ray, bool)> {
+    facet: &dyn Fn(bool, DVec3, DVec3) -> WalkFacet,
+    random: &mut WalkRandom,
+) -> Option<(WalkRay, bool)> {
     // The part of the surface that lies lower, seen from the side where the light is.
     let mut lower = 1.0f64;
     for _ in 0..1000 {
@@ -214,7 +214,7 @@ fn sheet_walk(
         }
         lower = (lower / (1.0 - u).powf(1.0 / lambda)).clamp(0.0, 1.0);
         let m = facing(ray.k, side, slopes, random)?;
-        let Facet { reflected, passed } = facet(above, ray.k, m);
+        let WalkFacet { reflected, passed } = facet(above, ray.k, m);
         let across = ray.k.cross(m).try_normalize();
         let seen = ray.along(across.unwrap_or(ray.e));
         let mirrored = ray.k - 2.0 * ray.k.dot(m) * m;
@@ -236,7 +236,7 @@ fn sheet_walk(
 }
 
 /// A facet that the light along `k` meets, as often as it is seen.
-fn facing(k: DVec3, side: f64, slopes: (f64, f64), random: &mut Random) -> Option<DVec3> {
+fn facing(k: DVec3, side: f64, slopes: (f64, f64), random: &mut WalkRandom) -> Option<DVec3> {
     let toward = -k.z * side;
     let widest = toward + 6.0 * (k.x * slopes.0).hypot(k.y * slopes.1);
     for _ in 0..1_000_000 {
@@ -251,21 +251,21 @@ fn facing(k: DVec3, side: f64, slopes: (f64, f64), random: &mut Random) -> Optio
 }
 
 /// A direction of diffuse light that goes up.
-fn diffuse(random: &mut Random) -> Ray {
+fn diffuse(random: &mut WalkRandom) -> WalkRay {
     let (sin2, phi) = (random.next(), TAU * random.next());
     let (s, c) = phi.sin_cos();
     let sin = sin2.sqrt();
-    Ray::depolarized(DVec3::new(sin * c, sin * s, (1.0 - sin2).sqrt()))
+    WalkRay::depolarized(DVec3::new(sin * c, sin * s, (1.0 - sin2).sqrt()))
 }
 
-impl Body {
+impl WalkBody {
     /// What comes up of light that came down.
-    fn returns(&self, down: &Ray, random: &mut Random) -> Option<Ray> {
+    fn returns(&self, down: &WalkRay, random: &mut WalkRandom) -> Option<WalkRay> {
         let (mut z, mut k) = (0.0, down.k);
         loop {
             let depth = z + random.next().ln() * k.z;
             if depth < 0.0 {
-                return Some(Ray::depolarized(k));
+                return Some(WalkRay::depolarized(k));
             }
             if depth > self.depth {
                 if random.next() >= self.backing {
@@ -273,7 +273,7 @@ impl Body {
                 }
                 (z, k) = (self.depth, diffuse(random).k);
                 if z == 0.0 {
-                    return Some(Ray::depolarized(k));
+                    return Some(WalkRay::depolarized(k));
                 }
                 continue;
             }
@@ -285,7 +285,7 @@ impl Body {
     }
 
     /// After L. G. Henyey and J. L. Greenstein.
-    fn scattered(&self, k: DVec3, random: &mut Random) -> DVec3 {
+    fn scattered(&self, k: DVec3, random: &mut WalkRandom) -> DVec3 {
         let g = self.g;
         let cos = if g.abs() < 1e-6 {
             2.0 * random.next() - 1.0
@@ -300,9 +300,9 @@ impl Body {
     }
 }
 
-impl Coat {
+impl WalkCoat {
     /// The light that comes back of `ray`, if it does.
-    pub(super) fn walk(&self, ray: Ray, random: &mut Random) -> Option<Ray> {
+    pub(super) fn walk(&self, ray: WalkRay, random: &mut WalkRandom) -> Option<WalkRay> {
         // The level of the flake in this column; the body is at 1.
         let level = self.flakes.as_ref().and_then(|sheet| {
             let covered = -(-sheet.depth).exp_m1();
@@ -331,7 +331,13 @@ impl Coat {
     }
 
     /// What goes up again at a flake of light that comes down to it.
-    fn below(&self, mut ray: Ray, sheet: &Sheet, level: f64, random: &mut Random) -> Option<Ray> {
+    fn below(
+        &self,
+        mut ray: WalkRay,
+        sheet: &WalkSheet,
+        level: f64,
+        random: &mut WalkRandom,
+    ) -> Option<WalkRay> {
         let facet = |_: bool, k: DVec3, m: DVec3| flake(sheet, self.n, k, m);
         let mut from_above = true;
         loop {
@@ -348,7 +354,7 @@ impl Coat {
     }
 
     /// Nothing if the binder absorbs the ray on the part `part` of the thickness.
-    fn survives(&self, ray: &Ray, part: f64, random: &mut Random) -> Option<()> {
+    fn survives(&self, ray: &WalkRay, part: f64, random: &mut WalkRandom) -> Option<()> {
         if self.binder == 0.0 {
             return Some(());
         }

@@ -13,7 +13,7 @@ use glam::DVec3;
 use num_complex::Complex64;
 use scattering::{
     Basis, Direction, Incidence, Mode, Model, Mueller,
-    scatterer::{Round, Scatterer},
+    scatterer::{Scatterer, SphericalScatterer},
     spec,
     special::gauss,
 };
@@ -21,7 +21,7 @@ use scattering::{
 use super::{
     pigmented,
     reference::node,
-    walk::{Body, Coat, Random, Ray, Sheet, turned},
+    walk::{WalkBody, WalkCoat, WalkRandom, WalkRay, WalkSheet, turned},
 };
 
 /// Rays per coating: 10⁷ in all.
@@ -39,15 +39,15 @@ const HALF: f64 = 0.25;
 const LAMBDA: f64 = 0.532;
 
 /// τ, slopes, index of the core (nothing: transparent), film: index and thickness.
-type Flakes = (f64, (f64, f64), Option<Complex64>, Option<(f64, f64)>);
+type WitnessFlakes = (f64, (f64, f64), Option<Complex64>, Option<(f64, f64)>);
 
 /// A coating and the beam on it.
-struct Case {
+struct WitnessCase {
     name: &'static str,
     n: f64,
     k: f64,
     surface: (f64, f64),
-    flakes: Option<Flakes>,
+    flakes: Option<WitnessFlakes>,
     backing: f64,
     /// Density and index of spheres of radius 0.15 µm.
     spheres: Option<(f64, Complex64)>,
@@ -60,9 +60,9 @@ const THICKNESS: f64 = 20.0;
 const RADIUS: f64 = 0.15;
 const AREA: f64 = 400.0;
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<WitnessCase> {
     let c = Complex64::new;
-    let plain = |name, n, surface: (f64, f64), backing, theta| Case {
+    let plain = |name, n, surface: (f64, f64), backing, theta| WitnessCase {
         name,
         n,
         k: 0.0,
@@ -73,7 +73,7 @@ fn cases() -> Vec<Case> {
         theta,
         rotation: 0.0,
     };
-    let with = |case: Case, depth, slopes, core, film| Case {
+    let with = |case: WitnessCase, depth, slopes, core, film| WitnessCase {
         flakes: Some((depth, slopes, core, film)),
         ..case
     };
@@ -85,19 +85,19 @@ fn cases() -> Vec<Case> {
         plain("nearly smooth, white", 1.5, (0.05, 0.05), 1.0, 0.4),
         plain("rough, white", 1.33, (0.2, 0.2), 1.0, 0.6),
         plain("rough, grey", 1.6, (0.15, 0.15), 0.5, 0.9),
-        Case { rotation: 0.5, ..plain("brushed, white", 1.5, (0.25, 0.08), 1.0, 0.7) },
-        Case { rotation: 1.2, ..plain("brushed, black", 1.8, (0.1, 0.25), 0.0, 0.5) },
-        Case { k: 5e-4, ..plain("tinted lacquer, white", 1.5, (0.05, 0.05), 1.0, 0.5) },
-        Case { k: 1e-3, ..plain("tinted lacquer, grey", 1.6, (0.1, 0.1), 0.6, 0.8) },
-        Case {
+        WitnessCase { rotation: 0.5, ..plain("brushed, white", 1.5, (0.25, 0.08), 1.0, 0.7) },
+        WitnessCase { rotation: 1.2, ..plain("brushed, black", 1.8, (0.1, 0.25), 0.0, 0.5) },
+        WitnessCase { k: 5e-4, ..plain("tinted lacquer, white", 1.5, (0.05, 0.05), 1.0, 0.5) },
+        WitnessCase { k: 1e-3, ..plain("tinted lacquer, grey", 1.6, (0.1, 0.1), 0.6, 0.8) },
+        WitnessCase {
             spheres: Some((2.0, c(2.6, 0.0))),
             ..plain("white spheres over black", 1.5, (0.05, 0.05), 0.0, 0.4)
         },
-        Case {
+        WitnessCase {
             spheres: Some((4.0, c(2.6, 0.0))),
             ..plain("white spheres over grey", 1.5, (0.1, 0.1), 0.4, 0.7)
         },
-        Case {
+        WitnessCase {
             spheres: Some((3.0, c(2.6, 0.02))),
             ..plain("coloured spheres over white", 1.5, (0.05, 0.05), 1.0, 0.3)
         },
@@ -143,7 +143,7 @@ fn cases() -> Vec<Case> {
             None,
             oxide,
         ),
-        Case {
+        WitnessCase {
             k: 4e-4,
             ..with(
                 plain("pearl in tinted lacquer over grey", 1.5, (0.08, 0.08), 0.5, 0.4),
@@ -153,7 +153,7 @@ fn cases() -> Vec<Case> {
                 oxide,
             )
         },
-        Case {
+        WitnessCase {
             rotation: 0.8,
             ..with(
                 plain("brushed pearl over white", 1.5, (0.08, 0.08), 1.0, 0.5),
@@ -166,7 +166,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-impl Case {
+impl WitnessCase {
     fn model(&self) -> Model {
         let mut params = vec![
             ("lambda", LAMBDA.to_string()),
@@ -203,14 +203,14 @@ impl Case {
         pigmented(&params)
     }
 
-    fn coat(&self) -> Coat {
-        let flakes = self.flakes.as_ref().map(|(depth, slopes, core, film)| Sheet {
+    fn coat(&self) -> WalkCoat {
+        let flakes = self.flakes.as_ref().map(|(depth, slopes, core, film)| WalkSheet {
             depth: *depth,
             slopes: *slopes,
             core: core.unwrap_or(self.n.into()),
             film: film.map(|(index, thickness)| (index, thickness / LAMBDA)),
         });
-        Coat {
+        WalkCoat {
             n: self.n,
             binder: 4.0 * PI * self.k * THICKNESS / LAMBDA,
             surface: self.surface,
@@ -219,10 +219,10 @@ impl Case {
         }
     }
 
-    fn body(&self) -> Body {
+    fn body(&self) -> WalkBody {
         let backing = self.backing;
         let Some((density, index)) = self.spheres else {
-            return Body { depth: 0.0, albedo: 1.0, g: 0.0, backing };
+            return WalkBody { depth: 0.0, albedo: 1.0, g: 0.0, backing };
         };
         let medium = format!("({},0)", self.n);
         let sphere = format!("({},{})", index.re, index.im);
@@ -239,7 +239,7 @@ impl Case {
         let particle = spec::build::<dyn Scatterer>(&node).unwrap();
         let round = particle.round().unwrap();
         let sections = round.cross_sections().unwrap();
-        Body {
+        WalkBody {
             depth: density * sections.extinction * THICKNESS,
             albedo: sections.scattering / sections.extinction,
             g: mean_cosine(round),
@@ -248,7 +248,7 @@ impl Case {
     }
 }
 
-fn mean_cosine(round: &dyn Round) -> f64 {
+fn mean_cosine(round: &dyn SphericalScatterer) -> f64 {
     let (mut sum, mut along) = (0.0, 0.0);
     for (cos, weight) in gauss::legendre(200, -1.0, 1.0) {
         let s = round.amplitudes(cos);
@@ -269,16 +269,16 @@ fn cones(theta: f64) -> [DVec3; 5] {
 }
 
 /// Sums of (I, Q) and of their squares: in all, and in each cone.
-type Sums = [[f64; 4]; 6];
+type WitnessSums = [[f64; 4]; 6];
 
-fn walked(case: &Case, seed: u64, rays: u64) -> Sums {
+fn walked(case: &WitnessCase, seed: u64, rays: u64) -> WitnessSums {
     let coat = case.coat();
     let cones = cones(case.theta);
     let part = |from: u64, to: u64| {
         let mut sums = [[0.0; 4]; 6];
         for ray in from..to {
-            let mut random = Random::new(seed, ray);
-            let beam = Ray::incident(case.theta, case.rotation, POLARIZED);
+            let mut random = WalkRandom::new(seed, ray);
+            let beam = WalkRay::incident(case.theta, case.rotation, POLARIZED);
             let Some(out) = coat.walk(beam, &mut random) else { continue };
             let q = out.q_at_surface();
             let k = turned(out.k, case.rotation);
@@ -294,7 +294,7 @@ fn walked(case: &Case, seed: u64, rays: u64) -> Sums {
         sums
     };
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
-    let parts: Vec<Sums> = std::thread::scope(|scope| {
+    let parts: Vec<WitnessSums> = std::thread::scope(|scope| {
         let part = &part;
         let handles: Vec<_> = (0..threads)
             .map(|t| scope.spawn(move || part(t * rays / threads, (t + 1) * rays / threads)))
@@ -314,7 +314,7 @@ fn walked(case: &Case, seed: u64, rays: u64) -> Sums {
 const POLARIZED: f64 = 0.6;
 
 /// (I, Q) of the model: in all, and in each cone.
-fn modelled(case: &Case) -> [[f64; 2]; 6] {
+fn modelled(case: &WitnessCase) -> [[f64; 2]; 6] {
     let model = case.model();
     let incidence = Incidence::new(case.theta, case.rotation);
     let mut result = [[0.0; 2]; 6];

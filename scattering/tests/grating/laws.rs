@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
-use scattering::{Basis, Family, Geometry, Model, Mueller, Value, models, spec};
+use scattering::{Basis, Family, Geometry, Model, Mueller, ParameterValue, models, spec};
 
-use super::parts::{ALPHA, Lines, efficiency, index, integer, member, model, node, number};
+use super::parts::{ALPHA, LineStack, efficiency, index, integer, member, model, node, number};
 
 /// Rounding of some tens of matrix products of elements up to 100.
 const ROUNDING: f64 = 1e-11;
 
-fn triangular() -> [(&'static str, Value); 4] {
+fn triangular() -> [(&'static str, ParameterValue); 4] {
     [
         ("material", index(1.5, 0.0)),
         ("amplitude", number(0.3)),
@@ -18,7 +18,7 @@ fn triangular() -> [(&'static str, Value); 4] {
     ]
 }
 
-const GLASS: Lines = Lines { lambda: 0.5, period: 0.7, order: 6, substrate: (1.5, 0.0) };
+const GLASS: LineStack = LineStack { lambda: 0.5, period: 0.7, order: 6, substrate: (1.5, 0.0) };
 
 /// Efficiency of the order that goes straight on.
 fn specular(model: &Model, theta: f64, rotation: f64) -> Mueller {
@@ -66,7 +66,7 @@ fn transparent_gratings_lose_nothing() {
 
 #[test]
 fn grating_without_height_reflects_as_fresnel() {
-    let lines = Lines { lambda: 0.5, period: 0.7, order: 3, substrate: (4.05, 0.05) };
+    let lines = LineStack { lambda: 0.5, period: 0.7, order: 3, substrate: (4.05, 0.05) };
     let model = lines.model(0, "Single_Line_Grating", &[("height", number(0.0))]);
     let (n, theta) = (num_complex::Complex64::new(4.05, 0.05), 0.9_f64);
     let epsilon = n * n;
@@ -130,7 +130,13 @@ fn conical_formulation_joins_the_one_across_the_lines() {
     assert_same(conical, across, ROUNDING, "conical");
 }
 
-fn crossed(lambda: f64, order: i32, kind: i32, class: &str, values: &[(&str, Value)]) -> Model {
+fn crossed(
+    lambda: f64,
+    order: i32,
+    kind: i32,
+    class: &str,
+    values: &[(&str, ParameterValue)],
+) -> Model {
     let mut all = vec![("medium_t", index(1.5, 0.0))];
     all.extend(values.iter().map(|(name, value)| (*name, value.clone())));
     model(
@@ -147,7 +153,7 @@ fn crossed(lambda: f64, order: i32, kind: i32, class: &str, values: &[(&str, Val
     )
 }
 
-fn lines(period: f64) -> Value {
+fn lines(period: f64) -> ParameterValue {
     let mut all = vec![("period", number(period)), ("medium_t", index(1.5, 0.0))];
     all.extend(triangular());
     member("Triangular_Grating", &all)
@@ -184,7 +190,7 @@ fn two_dimensional_harmonics_of_leaning_lines_change_nothing() {
     );
     let values = [("top", flat), ("bottom", lines(GLASS.period)), ("angle", number(65.0))];
     let both = crossed(GLASS.lambda, 2, 0, "Overlaid_1D_CrossGrating", &values);
-    let line = Lines { order: 2, ..GLASS }.model(0, "Triangular_Grating", &triangular());
+    let line = LineStack { order: 2, ..GLASS }.model(0, "Triangular_Grating", &triangular());
     let turn = 25.0 * PI / 180.0;
     let (a, b) = (specular(&both, 0.5, 0.4), specular(&line, 0.5, 0.4 - turn));
     assert_same(a, b, ROUNDING, "lower lines");
@@ -254,8 +260,8 @@ fn square_lattice_described_with_oblique_axes_converges_to_the_same() {
             ("zeta", number(zeta)),
             ("grid1", integer(64)),
             ("grid2", integer(64)),
-            ("rtop", Value::Table(scattering::optics::Table::constant(0.1))),
-            ("rbottom", Value::Table(scattering::optics::Table::constant(0.1))),
+            ("rtop", ParameterValue::Table(scattering::optics::RealFunction::constant(0.1))),
+            ("rbottom", ParameterValue::Table(scattering::optics::RealFunction::constant(0.1))),
             ("inside", index(2.0, 0.0)),
             ("outside", index(1.0, 0.0)),
             ("thickness", number(0.15)),

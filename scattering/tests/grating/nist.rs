@@ -3,8 +3,8 @@
 use std::{f64::consts::PI, fs, path::Path};
 
 use scattering::{
-    Model, Value,
-    optics::{Axis, Index, Rise, Table},
+    Model, ParameterValue,
+    optics::{AbscissaScale, RealFunction, RefractiveIndex, TableInterpolation},
 };
 
 use super::parts::{direction, index, integer, member, model, number, projected, seen, text};
@@ -46,7 +46,7 @@ fn compare(what: &str, got: &[f64], row: &[f64]) {
 }
 
 /// A line grating of period `period` seen by NIST's programs: orders 0 and −1 at each angle.
-struct Angles {
+struct OrderAngles {
     lambda: f64,
     period: f64,
     rotation: f64,
@@ -54,7 +54,7 @@ struct Angles {
     orders: &'static [i32],
 }
 
-impl Angles {
+impl OrderAngles {
     fn check(&self, program: &str, model: &Model) {
         let alpha = DEG;
         for row in rows(program) {
@@ -75,7 +75,13 @@ impl Angles {
     }
 }
 
-fn line_model(lambda: f64, order: i32, kind: i32, substrate: Value, grating: Value) -> Model {
+fn line_model(
+    lambda: f64,
+    order: i32,
+    kind: i32,
+    substrate: ParameterValue,
+    grating: ParameterValue,
+) -> Model {
     model(
         "RCW_BRDF_Model",
         &[
@@ -103,7 +109,7 @@ fn trapezoidal_line_has_nists_orders() {
         ],
     );
     let model = line_model(lambda, 11, 0, index(4.05, 0.05), grating);
-    Angles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0, -1] }
+    OrderAngles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0, -1] }
         .check("programs/v_rcw_line", &model);
 }
 
@@ -122,7 +128,7 @@ fn conical_mounting_has_nists_orders() {
         ],
     );
     let model = line_model(lambda, 6, 0, index(4.05, 0.05), grating);
-    Angles { lambda, period, rotation: 10.5 * DEG, exit: 1.0, orders: &[0] }
+    OrderAngles { lambda, period, rotation: 10.5 * DEG, exit: 1.0, orders: &[0] }
         .check("programs/v_rcw_conical", &model);
 }
 
@@ -140,7 +146,7 @@ fn sinusoidal_relief_has_nists_orders() {
         ],
     );
     let model = line_model(lambda, 7, 0, index(4.05, 0.05), grating);
-    Angles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0, -1] }
+    OrderAngles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0, -1] }
         .check("programs/v_rcw_shapes", &model);
 }
 
@@ -160,7 +166,7 @@ fn transmitted_orders_are_nists() {
         ],
     );
     let model = line_model(lambda, 8, 1, index(1.5, 0.0), grating);
-    Angles { lambda, period, rotation: 0.0, exit: 1.5, orders: &[0, -1] }
+    OrderAngles { lambda, period, rotation: 0.0, exit: 1.5, orders: &[0, -1] }
         .check("programs/v_rcw_transmission", &model);
 }
 
@@ -178,7 +184,7 @@ fn volume_hologram_has_nists_orders() {
         ],
     );
     let model = line_model(lambda, 6, 0, index(1.48, 0.0), grating);
-    Angles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0, -1] }
+    OrderAngles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0, -1] }
         .check("programs/v_rcw_volume", &model);
 }
 
@@ -213,7 +219,7 @@ fn overlaid_gratings_have_nists_orders() {
         &[("period", number(period)), ("overlay", number(0.126)), ("top", top), ("bottom", bottom)],
     );
     let model = line_model(lambda, 6, 0, index(4.05, 0.05), grating);
-    Angles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0, -1] }
+    OrderAngles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0, -1] }
         .check("programs/v_rcw_overlaid", &model);
 }
 
@@ -231,7 +237,7 @@ fn drawn_grating_has_nists_orders() {
         ],
     );
     let model = line_model(lambda, 5, 0, index(4.05, 0.05), grating);
-    Angles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0] }
+    OrderAngles { lambda, period, rotation: 0.0, exit: 1.0, orders: &[0] }
         .check("programs/v_rcw_generic", &model);
 }
 
@@ -276,9 +282,9 @@ fn dispersive_lines_have_nists_spectrum() {
         .collect();
     let table = |column: usize| {
         let rows: Vec<(f64, f64)> = points.iter().map(|p| (p[0], p[column])).collect();
-        Table::points(&rows, Axis::Linear, Rise::Linear)
+        RealFunction::points(&rows, AbscissaScale::Linear, TableInterpolation::Linear)
     };
-    let material = Value::Index(Index { n: table(1), k: table(2) });
+    let material = ParameterValue::Index(RefractiveIndex { n: table(1), k: table(2) });
     let (period, theta) = (1.171, 24.8 * DEG);
     for row in rows("bench/b05_rcw_spectral") {
         let grating = member(
@@ -324,7 +330,7 @@ fn check_crossed(program: &str, model: &Model, rotation: f64) {
     }
 }
 
-fn crossed_model(lambda: f64, grating: Value) -> Model {
+fn crossed_model(lambda: f64, grating: ParameterValue) -> Model {
     model(
         "CrossRCW_BRDF_Model",
         &[
@@ -369,8 +375,8 @@ fn conical_holes_have_nists_order() {
             ("thickness", number(0.12)),
             ("inside", index(1.0, 0.0)),
             ("outside", index(2.0, 0.0)),
-            ("rtop", Value::Table(Table::constant(0.15))),
-            ("rbottom", Value::Table(Table::constant(0.12))),
+            ("rtop", ParameterValue::Table(RealFunction::constant(0.15))),
+            ("rbottom", ParameterValue::Table(RealFunction::constant(0.12))),
             ("nlevels", integer(2)),
         ],
     );

@@ -3,39 +3,39 @@
 use std::sync::Arc;
 
 use scattering::{
-    Basis, Direction, Geometry, Mode, Model, Mueller, Node, Stokes, Value, models, optics::Index,
-    spec::find_class,
+    Basis, Direction, Geometry, Mode, Model, Mueller, ParameterNode, ParameterValue, Stokes,
+    models, optics::RefractiveIndex, spec::find_class,
 };
 
 /// The class `name` with the parameters given, the others at their defaults.
-pub(crate) fn node(name: &str, values: &[(&str, Value)]) -> Node {
+pub(crate) fn node(name: &str, values: &[(&str, ParameterValue)]) -> ParameterNode {
     let class = find_class(name).unwrap_or_else(|| panic!("class {name}"));
-    values.iter().fold(Node::with_defaults(class, Mode::Compat), |node, (name, value)| {
+    values.iter().fold(ParameterNode::with_defaults(class, Mode::Compat), |node, (name, value)| {
         node.with(name, value.clone()).unwrap()
     })
 }
 
-pub(crate) fn number(x: f64) -> Value {
-    Value::Number(x)
+pub(crate) fn number(x: f64) -> ParameterValue {
+    ParameterValue::Number(x)
 }
 
-pub(crate) fn integer(i: i32) -> Value {
-    Value::Integer(i)
+pub(crate) fn integer(i: i32) -> ParameterValue {
+    ParameterValue::Integer(i)
 }
 
-pub(crate) fn index(n: f64, k: f64) -> Value {
-    Value::Index(Index::constant(n, k))
+pub(crate) fn index(n: f64, k: f64) -> ParameterValue {
+    ParameterValue::Index(RefractiveIndex::constant(n, k))
 }
 
-pub(crate) fn text(text: &str) -> Value {
-    Value::Text(text.into())
+pub(crate) fn text(text: &str) -> ParameterValue {
+    ParameterValue::Text(text.into())
 }
 
-pub(crate) fn member(name: &str, values: &[(&str, Value)]) -> Value {
-    Value::Member(Arc::new(node(name, values)))
+pub(crate) fn member(name: &str, values: &[(&str, ParameterValue)]) -> ParameterValue {
+    ParameterValue::Member(Arc::new(node(name, values)))
 }
 
-pub(crate) fn model(name: &str, values: &[(&str, Value)]) -> Model {
+pub(crate) fn model(name: &str, values: &[(&str, ParameterValue)]) -> Model {
     models::build(&node(name, values)).unwrap()
 }
 
@@ -56,7 +56,7 @@ pub(crate) fn seen(m: &Mueller, source: [f64; 4], detector: [f64; 4]) -> f64 {
 }
 
 /// A line grating model with a narrow cone, for tests that look at one order at a time.
-pub(crate) struct Lines {
+pub(crate) struct LineStack {
     pub(crate) lambda: f64,
     pub(crate) period: f64,
     pub(crate) order: i32,
@@ -66,9 +66,9 @@ pub(crate) struct Lines {
 /// Half angle of the cones in these tests; no two orders are that close.
 pub(crate) const ALPHA: f64 = 1e-3;
 
-impl Lines {
+impl LineStack {
     /// The model of `kind` 0–3 with a grating of class `class`.
-    pub(crate) fn model(&self, kind: i32, class: &str, values: &[(&str, Value)]) -> Model {
+    pub(crate) fn model(&self, kind: i32, class: &str, values: &[(&str, ParameterValue)]) -> Model {
         let substrate = index(self.substrate.0, self.substrate.1);
         let mut all = vec![("period", number(self.period)), ("medium_t", substrate.clone())];
         all.extend(values.iter().map(|(name, value)| (*name, value.clone())));

@@ -2,12 +2,12 @@
 
 use scattering::Model;
 
-use super::parts::{Lines, efficiency, index, integer, number};
+use super::parts::{LineStack, efficiency, index, integer, number};
 
 const INCIDENCE: f64 = std::f64::consts::PI / 6.0;
 
 /// (TE, TM) efficiency of an order in the plane of incidence.
-fn te_tm(model: &Model, lines: &Lines, order: f64, exit: f64) -> (f64, f64) {
+fn te_tm(model: &Model, lines: &LineStack, order: f64, exit: f64) -> (f64, f64) {
     let x = (INCIDENCE.sin() + order * lines.lambda / lines.period) / exit;
     let m = efficiency(model, INCIDENCE, 0.0, x, 0.0);
     (m[(0, 0)] + m[(0, 1)], m[(0, 0)] - m[(0, 1)])
@@ -18,7 +18,7 @@ fn sinusoidal_grating_a_hundred_periods_deep_has_the_published_efficiencies() {
     // L. Li, J. Opt. Soc. Am. A 10, 2581 (1993), table 3 with h/d = 100: ε = 2.25, λ = d/1.7,
     // 30°. The digits are those that K. C. Johnson's program GD-Calc (public domain, demo 1b)
     // lists for 50 strata and orders up to 20; they end in the fifth digit.
-    let lines = Lines { lambda: 1.0 / 1.7, period: 1.0, order: 20, substrate: (1.5, 0.0) };
+    let lines = LineStack { lambda: 1.0 / 1.7, period: 1.0, order: 20, substrate: (1.5, 0.0) };
     let relief = [
         ("material", index(1.5, 0.0)),
         ("amplitude", number(100.0)),
@@ -49,7 +49,7 @@ fn lamellar_metal_grating_converges_to_the_published_efficiencies() {
     // them P. Lalanne, G. M. Morris (1996), G. Granet, B. Guizal (1996) showed the convergence in
     // TM: n = 0.22 + 6.71i, period, depth and wavelength 1 µm, half filled, 30°. Converged:
     // TE order −1 0.7343, TM order 0 0.8484. At 40 harmonics 2·10⁻³ is left.
-    let lines = Lines { lambda: 1.0, period: 1.0, order: 40, substrate: (0.22, 6.71) };
+    let lines = LineStack { lambda: 1.0, period: 1.0, order: 40, substrate: (0.22, 6.71) };
     let model = lines.model(
         0,
         "Single_Line_Grating",

@@ -9,7 +9,7 @@
 
 use std::sync::LazyLock;
 
-use scattering::{Basis, Geometry, Mode, Mueller, Node, models};
+use scattering::{Basis, Geometry, Mode, Mueller, ParameterNode, models};
 use serde_json::Value as Json;
 
 mod text;
@@ -27,11 +27,11 @@ pub(crate) static FILE: LazyLock<Json> = LazyLock::new(|| {
 pub(crate) const TOLERANCE: f64 = 1e-11;
 
 /// One matrix of the library.
-pub(crate) struct Case {
+pub(crate) struct ReferenceCase {
     /// Name of the case.
     pub(crate) id: String,
     /// The model, in compat mode.
-    pub(crate) node: Node,
+    pub(crate) node: ParameterNode,
     /// Angles.
     pub(crate) at: Geometry,
     /// Basis of the matrix.
@@ -41,7 +41,7 @@ pub(crate) struct Case {
 }
 
 /// All cases of the model.
-pub(crate) fn cases(model: &str) -> Vec<Case> {
+pub(crate) fn cases(model: &str) -> Vec<ReferenceCase> {
     list(&FILE["brdf"]).iter().filter(|case| case["model"] == model).map(case).collect()
 }
 
@@ -84,7 +84,7 @@ pub(crate) fn components(section: &str) -> &'static [Json] {
 }
 
 /// The node of a check that names its `model` and `params`.
-pub(crate) fn component_node(check: &Json, mode: Mode) -> Node {
+pub(crate) fn component_node(check: &Json, mode: Mode) -> ParameterNode {
     node(check["model"].as_str().unwrap(), &params(check), mode)
 }
 
@@ -131,9 +131,9 @@ fn params(json: &Json) -> Vec<(&str, &str)> {
         .collect()
 }
 
-fn case(json: &Json) -> Case {
+fn case(json: &Json) -> ReferenceCase {
     let id = json["id"].as_str().unwrap().to_owned();
-    Case {
+    ReferenceCase {
         node: node(json["model"].as_str().unwrap(), &params(json), Mode::Compat),
         at: geometry(json),
         basis: Basis::from_name(json["basis"].as_str().unwrap()).unwrap(),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use scattering::{
-    Class, Kind, Mode, Node, Value,
-    optics::{Axis, Index, Rise, Table},
+    Class, Mode, ParameterKind, ParameterNode, ParameterValue,
+    optics::{AbscissaScale, RealFunction, RefractiveIndex, TableInterpolation},
     spec::find_class,
     stack::Film,
 };
@@ -12,8 +12,8 @@ use scattering::{
 use super::FILE;
 
 /// The class `name` with its defaults and then `params`, in their order.
-pub(crate) fn node(name: &str, params: &[(&str, &str)], mode: Mode) -> Node {
-    let mut node = Node::with_defaults(class(name), mode);
+pub(crate) fn node(name: &str, params: &[(&str, &str)], mode: Mode) -> ParameterNode {
+    let mut node = ParameterNode::with_defaults(class(name), mode);
     for (path, text) in params {
         set(&mut node, path, text);
     }
@@ -24,7 +24,7 @@ fn class(name: &str) -> &'static Class {
     find_class(name).unwrap_or_else(|| panic!("no class {name}"))
 }
 
-fn set(node: &mut Node, path: &str, text: &str) {
+fn set(node: &mut ParameterNode, path: &str, text: &str) {
     let (name, rest) = path.split_once('.').map_or((path, None), |(a, b)| (a, Some(b)));
     let (at, param) = node
         .class
@@ -32,7 +32,7 @@ fn set(node: &mut Node, path: &str, text: &str) {
         .unwrap_or_else(|| panic!("{} has no parameter {name}", node.class.name));
     match rest {
         Some(rest) => {
-            let Value::Member(child) = &mut node.values[at] else {
+            let ParameterValue::Member(child) = &mut node.values[at] else {
                 panic!("{name} of {} has no parameters", node.class.name)
             };
             set(Arc::make_mut(child), rest, text);
@@ -41,21 +41,19 @@ fn set(node: &mut Node, path: &str, text: &str) {
     }
 }
 
-fn value(kind: Kind, text: &str, node: &Node) -> Value {
+fn value(kind: ParameterKind, text: &str, node: &ParameterNode) -> ParameterValue {
     match kind {
-        Kind::Number => Value::Number(number(text)),
-        Kind::Integer => Value::Integer(text.parse().unwrap()),
-        Kind::Text => Value::Text(text.into()),
-        Kind::File => Value::Text(file(text).into()),
-        Kind::Formula => formula(text),
-        Kind::Index => Value::Index(index(text)),
-        Kind::Table => Value::Table(table(text)),
-        Kind::Films => Value::Films(films(text)),
-        Kind::Member(..) => Value::Member(Arc::new(Node::with_defaults_noting(
-            class(text),
-            node.mode,
-            node.met.clone(),
-        ))),
+        ParameterKind::Number => ParameterValue::Number(number(text)),
+        ParameterKind::Integer => ParameterValue::Integer(text.parse().unwrap()),
+        ParameterKind::Text => ParameterValue::Text(text.into()),
+        ParameterKind::File => ParameterValue::Text(file(text).into()),
+        ParameterKind::Formula => formula(text),
+        ParameterKind::Index => ParameterValue::Index(index(text)),
+        ParameterKind::Table => ParameterValue::Table(table(text)),
+        ParameterKind::Films => ParameterValue::Films(films(text)),
+        ParameterKind::Member(..) => ParameterValue::Member(Arc::new(
+            ParameterNode::with_defaults_noting(class(text), node.mode, node.met.clone()),
+        )),
     }
 }
 
@@ -68,43 +66,43 @@ fn file(name: &str) -> &'static str {
 }
 
 /// The one expression of the reference file, written out, or a constant.
-fn formula(text: &str) -> Value {
+fn formula(text: &str) -> ParameterValue {
     if text == "0.3+0.5*exp(-x^2)" {
         // The minus that opens the parenthesis is "0 −": the exponent is −(x²).
-        return Value::Formula(Arc::new(|x: f64| 0.3 + 0.5 * (-(x * x)).exp()));
+        return ParameterValue::Formula(Arc::new(|x: f64| 0.3 + 0.5 * (-(x * x)).exp()));
     }
     let value = number(text);
-    Value::Formula(Arc::new(move |_| value))
+    ParameterValue::Formula(Arc::new(move |_| value))
 }
 
 /// `n`, `(n,k)`, or a file with n and k in its second and third columns.
-fn index(text: &str) -> Index {
+fn index(text: &str) -> RefractiveIndex {
     if let Ok(n) = text.parse() {
-        return Index::constant(n, 0.0);
+        return RefractiveIndex::constant(n, 0.0);
     }
     if let Some(inner) = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')) {
         let (n, k) = inner.split_once(',').unwrap_or((inner, "0"));
-        return Index::constant(number(n), number(k));
+        return RefractiveIndex::constant(number(n), number(k));
     }
     let rows = rows(file(text));
     let column = |c: usize| {
         let points: Vec<_> = rows.iter().map(|row| (row[0], row[c])).collect();
-        Table::points(&points, Axis::Linear, Rise::Linear)
+        RealFunction::points(&points, AbscissaScale::Linear, TableInterpolation::Linear)
     };
-    Index { n: column(1), k: column(2) }
+    RefractiveIndex { n: column(1), k: column(2) }
 }
 
 /// A constant, a file, or `table file: x y / x y / …`.
-fn table(text: &str) -> Table {
+fn table(text: &str) -> RealFunction {
     if let Ok(value) = text.parse() {
-        return Table::constant(value);
+        return RealFunction::constant(value);
     }
     let rows = match text.strip_prefix("table file: ") {
         Some(lines) => rows(&lines.replace(" / ", "\n")),
         None => rows(file(text)),
     };
     let points: Vec<_> = rows.iter().map(|row| (row[0], row[1])).collect();
-    Table::points(&points, Axis::Linear, Rise::Linear)
+    RealFunction::points(&points, AbscissaScale::Linear, TableInterpolation::Linear)
 }
 
 /// The lines that consist of numbers only.

@@ -5,12 +5,12 @@
 //! projection. So the ends of the intervals have closed forms, and so have the azimuths at which
 //! their number changes: corners, and rays that touch a circle.
 //!
-//! Rims of spots, across which the integrand jumps, end intervals too.
+//! rims of lobe supports, across which the integrand jumps, end intervals too.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
-use scattering::models::Spot;
+use scattering::models::LobeSupport;
 use smallvec::{SmallVec, smallvec};
 
 use crate::region::{Polygon, Region, RegionError, above_horizon, refuse_crossing, unit};
@@ -37,7 +37,7 @@ enum Inside {
 /// What bounds a region.
 #[derive(Clone, Debug)]
 pub(super) struct Boundary {
-    /// The edges, then the rims of spots.
+    /// The edges, then the rims of lobe supports.
     pub(super) circles: Vec<Circle>,
     edges: usize,
     inside: Inside,
@@ -97,11 +97,11 @@ impl Circle {
 }
 
 impl Boundary {
-    /// The boundary of `region` and the rims of `spots`.
-    pub(super) fn new(region: &Region, spots: &[Spot]) -> Result<Self, RegionError> {
+    /// The boundary of `region` and the rims of `supports`.
+    pub(super) fn new(region: &Region, supports: &[LobeSupport]) -> Result<Self, RegionError> {
         let mut boundary = Self::of(region)?;
-        for spot in spots {
-            let rim = Circle { normal: spot.axis, cos: spot.half_angle.cos() };
+        for support in supports {
+            let rim = Circle { normal: support.axis, cos: support.half_angle.cos() };
             let circles = boundary.circles.iter();
             boundary.corners.extend(circles.flat_map(|circle| common_points(circle, &rim)));
             boundary.circles.push(rim);

@@ -2,7 +2,7 @@
 
 use scattering::{
     Mueller,
-    lanes::{Batch, Vectors, WIDTH, with_widest},
+    lanes::{LaneKernel, SimdLevel, WIDTH, dispatch},
 };
 
 use super::{
@@ -62,7 +62,7 @@ impl Cell {
     /// The directions of the nodes on their rays, with the solid angle per area of [−1, 1]².
     pub(super) fn nodes(&self, fan: &Fan) -> Places<NODES> {
         let mut at = Places::new();
-        with_widest(Placing { cell: self, fan, at: &mut at });
+        dispatch(Placing { cell: self, fan, at: &mut at });
         at
     }
 }
@@ -74,9 +74,9 @@ struct Placing<'a> {
     at: &'a mut Places<NODES>,
 }
 
-impl Batch for Placing<'_> {
+impl LaneKernel for Placing<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         let Self { cell, fan, at: Places { v, weights } } = self;
         let ((_, ds), (u, du)) = (half(cell.s), half(cell.u));
         let nodes = vectors.load(&NODE) * du + u;
@@ -98,7 +98,7 @@ fn half((from, to): (f64, f64)) -> (f64, f64) {
 /// Integral and error from the values at the nodes, p slow and t fast.
 fn judge(cell: Cell, values: &[Mueller; NODES]) -> Measured {
     let mut sums = Sums::default();
-    with_widest(Summing { values, sums: &mut sums });
+    dispatch(Summing { values, sums: &mut sums });
     let Sums { matrix, along_p, along_t } = sums;
     let along = (along_p.largest(), along_t.largest());
     Measured { cell, matrix, error: along_p + along_t, along_p: along.0 > along.1 }
@@ -120,9 +120,9 @@ struct Summing<'a> {
     sums: &'a mut Sums,
 }
 
-impl Batch for Summing<'_> {
+impl LaneKernel for Summing<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         let Self { values, sums } = self;
         let zero = vectors.load(&[0.0; WIDTH]);
         for part in 0..16 / WIDTH {

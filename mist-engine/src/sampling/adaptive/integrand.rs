@@ -3,8 +3,8 @@
 use glam::DVec3;
 use scattering::{
     Basis, Direction, Incidence, Model, Mueller, Side,
-    lanes::{Batch, Vectors, WIDTH, with_widest},
-    models::Spot,
+    lanes::{LaneKernel, SimdLevel, WIDTH, dispatch},
+    models::LobeSupport,
 };
 
 use super::Estimate;
@@ -58,9 +58,9 @@ impl<'a> Integrand<'a> {
         let mut directions = [Direction::from_sin_cos((0.0, 1.0), (0.0, 1.0)); N];
         let mut turns = [[0.0; N]; 2];
         let (turn, seen) = (&self.turn, &mut directions);
-        with_widest(Seeing { at, turn, directions: seen, turns: &mut turns });
+        dispatch(Seeing { at, turn, directions: seen, turns: &mut turns });
         self.model.evaluate(self.incidence, &directions, self.basis, out);
-        with_widest(Weighing { at, turns: &turns, flip: self.flip, out });
+        dispatch(Weighing { at, turns: &turns, flip: self.flip, out });
     }
 
     /// One direction: nothing is left to estimate, and nothing is turned.
@@ -87,8 +87,8 @@ impl<'a> Integrand<'a> {
     }
 
     /// The cones with sharp rims that the model fills.
-    pub(super) fn spots(&self) -> Vec<Spot> {
-        self.model.spots(self.incidence)
+    pub(super) fn lobe_supports(&self) -> Vec<LobeSupport> {
+        self.model.lobe_supports(self.incidence)
     }
 }
 
@@ -100,9 +100,9 @@ struct Seeing<'a, const N: usize> {
     turns: &'a mut [[f64; N]; 2],
 }
 
-impl<const N: usize> Batch for Seeing<'_, N> {
+impl<const N: usize> LaneKernel for Seeing<'_, N> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         let Self { at, turn, directions, turns } = self;
         const { assert!(N.is_multiple_of(WIDTH)) };
         for group in 0..N / WIDTH {
@@ -124,9 +124,9 @@ struct Weighing<'a, const N: usize> {
     out: &'a mut [Mueller; N],
 }
 
-impl<const N: usize> Batch for Weighing<'_, N> {
+impl<const N: usize> LaneKernel for Weighing<'_, N> {
     #[inline(always)]
-    fn run<V: Vectors>(self, _: V) {
+    fn run<V: SimdLevel>(self, _: V) {
         let Self { at, turns: [cos, sin], flip, out } = self;
         for (k, m) in out.iter_mut().enumerate() {
             // Directions of no weight lie on the edge of the region, at worst on the horizon.

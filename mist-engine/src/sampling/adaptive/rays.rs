@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use scattering::{
     lanes::{Real, sin_cos_of_half_turn, sinh_cosh},
-    models::Spot,
+    models::LobeSupport,
 };
 
 use super::{
@@ -57,11 +57,15 @@ impl Ray {
 }
 
 impl Rays {
-    /// The region as seen from `center`, which is not below the horizon, cut by `spots`.
-    pub(super) fn new(region: &Region, center: Peak, spots: &[Spot]) -> Result<Self, RegionError> {
+    /// The region as seen from `center`, which is not below the horizon, cut by `supports`.
+    pub(super) fn new(
+        region: &Region,
+        center: Peak,
+        supports: &[LobeSupport],
+    ) -> Result<Self, RegionError> {
         let pole = center.at;
         let q = pole.any_orthonormal_vector();
-        let boundary = Boundary::new(&region.ordered(), spots)?;
+        let boundary = Boundary::new(&region.ordered(), supports)?;
         let (across, near) = ((q, pole.cross(q)), center.width);
         let mut rays = Self { pole, across, near, boundary, slices: Vec::new() };
         rays.slices = rays.cut();

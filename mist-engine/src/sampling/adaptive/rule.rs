@@ -72,15 +72,15 @@ pub(super) fn weighted<R: Real>(values: &[R; SIDE], weights: &[f64; SIDE]) -> R 
 /// the rounding of a sum of this size.
 #[inline(always)]
 pub(super) fn error<R: Real>(values: &[R; SIDE]) -> R {
-    let mut pairs = [values[0].all(0.0); 3];
+    let mut pairs = [values[0].splat(0.0); 3];
     for (two, pair) in COEFFICIENTS[1..].as_chunks::<2>().0.iter().zip(&mut pairs) {
         *pair = weighted(values, &two[0]).abs() + weighted(values, &two[1]).abs();
     }
     let [first, second, third] = pairs;
     let before = second / (first + f64::MIN_POSITIVE) * LASTING;
     let last = third / (second + f64::MIN_POSITIVE);
-    let ratio = (last - before).choose(last, before) / SLOW;
-    let fall = (ratio - MOST).choose(ratio.all(MOST), ratio);
+    let ratio = (last - before).select(last, before) / SLOW;
+    let fall = (ratio - MOST).select(ratio.splat(MOST), ratio);
     let square = fall * fall;
     let mut size = values[0].abs() * WEIGHT[0];
     for k in 1..SIDE {

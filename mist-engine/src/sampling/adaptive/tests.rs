@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use scattering::{Mode, Node, models};
+use scattering::{Mode, ParameterNode, models};
 
 use super::*;
 use crate::region::Angles;
@@ -11,7 +11,7 @@ const DEMAND: Demand = Demand { tolerance: 1e-9, budget: 10_000_000 };
 
 fn model(name: &str) -> Model {
     let class = &models::find(name).unwrap().class;
-    models::build(&Node::with_defaults(class, Mode::Sound)).unwrap()
+    models::build(&ParameterNode::with_defaults(class, Mode::Sound)).unwrap()
 }
 
 fn estimate(model: &Model, theta_i: f64, region: &Region, tolerance: f64) -> Estimate {

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use num_complex::Complex64;
 
-use super::expression::{Scope, evaluate, tuple};
-use crate::{grating::Material, spec::ParamError};
+use super::expression::{Constants, evaluate, tuple};
+use crate::{grating::GratingMaterial, spec::ParameterError};
 
 /// What a description may refer to without defining it.
-pub(crate) struct Surroundings {
+pub(crate) struct DescriptionContext {
     /// Period, µm.
     pub(crate) period: f64,
     /// Vacuum wavelength, µm.
@@ -20,22 +20,22 @@ pub(crate) struct Surroundings {
 }
 
 /// A description with its parameters and materials worked out.
-pub(crate) struct Description {
+pub(crate) struct GratingDescription {
     blocks: BTreeMap<String, Vec<String>>,
-    scope: Scope,
-    materials: BTreeMap<String, Material>,
+    scope: Constants,
+    materials: BTreeMap<String, GratingMaterial>,
 }
 
-impl Description {
+impl GratingDescription {
     /// Reads the description `text` with `values` = "(v1,v2,…)" for its parameters.
     pub(crate) fn read(
         text: &str,
         values: &str,
-        around: &Surroundings,
-    ) -> Result<Self, ParamError> {
-        let at_file = |problem: String| ParamError::new("filename", problem);
+        around: &DescriptionContext,
+    ) -> Result<Self, ParameterError> {
+        let at_file = |problem: String| ParameterError::new("filename", problem);
         let blocks = blocks(text).map_err(at_file)?;
-        let mut scope: Scope = [
+        let mut scope: Constants = [
             ("period", around.period),
             ("lambda", around.lambda),
             ("mediumin", around.above.re),
@@ -47,11 +47,11 @@ impl Description {
         .map(|(name, value)| (name.to_owned(), value))
         .collect();
         let names = blocks.get("PARAMETERS").map_or(&[][..], Vec::as_slice);
-        let values =
-            tuple(values, &Scope::new()).map_err(|problem| ParamError::new("pstring", problem))?;
+        let values = tuple(values, &Constants::new())
+            .map_err(|problem| ParameterError::new("pstring", problem))?;
         if names.len() != values.len() {
             let problem = format!("{} values for {} parameters", values.len(), names.len());
-            return Err(ParamError::new("pstring", problem));
+            return Err(ParameterError::new("pstring", problem));
         }
         scope.extend(names.iter().cloned().zip(values));
         for line in blocks.get("WORKING").into_iter().flatten() {
@@ -60,8 +60,8 @@ impl Description {
             scope.insert(name.to_owned(), value);
         }
         let mut materials = BTreeMap::from([
-            ("medium_i".to_owned(), Material::from_index(around.above)),
-            ("medium_t".to_owned(), Material::from_index(around.below)),
+            ("medium_i".to_owned(), GratingMaterial::from_index(around.above)),
+            ("medium_t".to_owned(), GratingMaterial::from_index(around.below)),
         ]);
         for line in blocks.get("MATERIALS").into_iter().flatten() {
             let (name, material) = material(line, &scope).map_err(at_file)?;
@@ -76,7 +76,7 @@ impl Description {
     }
 
     /// The material called `name`.
-    pub(crate) fn material(&self, name: &str) -> Result<Material, String> {
+    pub(crate) fn material(&self, name: &str) -> Result<GratingMaterial, String> {
         self.materials.get(name).copied().ok_or_else(|| format!("no material {name}"))
     }
 
@@ -134,13 +134,13 @@ fn split(line: &str) -> Result<(&str, &str), String> {
         .ok_or_else(|| format!("{line:?} is a name without a value"))
 }
 
-fn material(line: &str, scope: &Scope) -> Result<(String, Material), String> {
+fn material(line: &str, scope: &Constants) -> Result<(String, GratingMaterial), String> {
     let (first, rest) = split(line)?;
     let expected = match first {
         "ANISO" => 3,
         "MAGNETIC" => 2,
         "ANISOMAGNETIC" => 6,
-        name => return Ok((name.to_owned(), Material::from_index(index(rest, scope)?))),
+        name => return Ok((name.to_owned(), GratingMaterial::from_index(index(rest, scope)?))),
     };
     let (name, texts) = split(rest)?;
     let squares = texts
@@ -157,11 +157,11 @@ fn material(line: &str, scope: &Scope) -> Result<(String, Material), String> {
         [a, b, c, d, e, f] => ([a, b, c], [d, e, f]),
         _ => return Err(format!("{first} {name} needs {expected} indices")),
     };
-    Ok((name.to_owned(), Material { epsilon, mu }))
+    Ok((name.to_owned(), GratingMaterial { epsilon, mu }))
 }
 
 /// An index of refraction: an expression, or (n, k) of two.
-fn index(text: &str, scope: &Scope) -> Result<Complex64, String> {
+fn index(text: &str, scope: &Constants) -> Result<Complex64, String> {
     match tuple(text, scope)?[..] {
         [n] => Ok(Complex64::new(n, 0.0)),
         [n, k] => Ok(Complex64::new(n, k)),

@@ -6,10 +6,10 @@
 use std::collections::BTreeMap;
 
 /// Names and their values.
-pub(super) type Scope = BTreeMap<String, f64>;
+pub(super) type Constants = BTreeMap<String, f64>;
 
 /// The value of `text`.
-pub(super) fn evaluate(text: &str, scope: &Scope) -> Result<f64, String> {
+pub(super) fn evaluate(text: &str, scope: &Constants) -> Result<f64, String> {
     match tuple(text, scope)?[..] {
         [value] => Ok(value),
         _ => Err(format!("{text:?} is not one value")),
@@ -17,20 +17,20 @@ pub(super) fn evaluate(text: &str, scope: &Scope) -> Result<f64, String> {
 }
 
 /// The values of `text`, one expression or several as `(a,b,…)`; none if it is blank.
-pub(super) fn tuple(text: &str, scope: &Scope) -> Result<Vec<f64>, String> {
-    let mut reader = Reader { text, at: 0, scope, depth: 0 };
+pub(super) fn tuple(text: &str, scope: &Constants) -> Result<Vec<f64>, String> {
+    let mut reader = ExpressionParser { text, at: 0, scope, depth: 0 };
     if reader.peek().is_none() {
         return Ok(Vec::new());
     }
     let values = reader.tuple().or_else(|_| {
-        reader = Reader { text, at: 0, scope, depth: 0 };
+        reader = ExpressionParser { text, at: 0, scope, depth: 0 };
         reader.sum().map(|value| vec![value])
     })?;
     match reader.peek() {
         None => Ok(values),
         Some(_) if values.len() == 1 => {
             // A parenthesis that was only the beginning of an expression.
-            reader = Reader { text, at: 0, scope, depth: 0 };
+            reader = ExpressionParser { text, at: 0, scope, depth: 0 };
             let value = reader.sum()?;
             reader.peek().map_or(Ok(vec![value]), |_| Err(reader.wrong("an operator")))
         }
@@ -41,14 +41,14 @@ pub(super) fn tuple(text: &str, scope: &Scope) -> Result<Vec<f64>, String> {
 /// Deepest nesting of parentheses; a file is not trusted with the stack.
 const DEEPEST: usize = 100;
 
-struct Reader<'a> {
+struct ExpressionParser<'a> {
     text: &'a str,
     at: usize,
-    scope: &'a Scope,
+    scope: &'a Constants,
     depth: usize,
 }
 
-impl Reader<'_> {
+impl ExpressionParser<'_> {
     fn peek(&mut self) -> Option<char> {
         let rest = &self.text[self.at..];
         self.at += rest.len() - rest.trim_start().len();
@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn expressions_have_the_precedence_of_the_file_format() {
-        let scope = Scope::from([("w".to_owned(), 0.4)]);
+        let scope = Constants::from([("w".to_owned(), 0.4)]);
         for (text, value) in [
             ("-2^2", -4.0),
             ("3*-2^2", 12.0),
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn nonsense_is_an_error_that_quotes_it() {
         for text in ["(1,", "1+", "x", "sin(1,2)", "3 4", "(1)2", &"(".repeat(500)] {
-            assert!(evaluate(text, &Scope::new()).is_err(), "{text}");
+            assert!(evaluate(text, &Constants::new()).is_err(), "{text}");
         }
     }
 }

@@ -11,12 +11,12 @@
 
 use std::sync::Arc;
 
-use super::doubling::{self, Slab};
+use super::doubling::{self, DiffuseSlab};
 use crate::{
-    Node, ParamError, Value,
-    optics::{Index, Table},
+    ParameterError, ParameterNode, ParameterValue,
+    optics::{RealFunction, RefractiveIndex},
     reflectance::{self, Reflectance},
-    scatterer::{Round, Scatterer, positive},
+    scatterer::{Scatterer, SphericalScatterer, positive},
     spec,
     special::gauss,
 };
@@ -25,32 +25,36 @@ use crate::{
 const DENSEST: f64 = 0.74;
 
 /// The body of `node` inside a binder of index `binder`.
-pub(super) fn read(node: &Node, lambda: f64, binder: f64) -> Result<Slab, ParamError> {
+pub(super) fn read(
+    node: &ParameterNode,
+    lambda: f64,
+    binder: f64,
+) -> Result<DiffuseSlab, ParameterError> {
     let backing = reflectance::read(node, "backing", lambda)?;
     if !(0.0..=1.0).contains(&backing) {
-        return Err(ParamError::new("backing", format!("{backing} is not from 0 to 1")));
+        return Err(ParameterError::new("backing", format!("{backing} is not from 0 to 1")));
     }
     let (density, thickness) =
         (nonnegative(node, "particle_density")?, nonnegative(node, "thickness")?);
     if density == 0.0 || thickness == 0.0 {
-        return Ok(Slab::uniform(backing));
+        return Ok(DiffuseSlab::uniform(backing));
     }
     let radius = positive(node, "particle_radius")?;
     let filled = filled(node);
     if filled > DENSEST {
         let problem =
             format!("{density} 1/um^3 fill {filled} of the volume; {DENSEST} is the most");
-        return Err(ParamError::new("particle_density", problem));
+        return Err(ParameterError::new("particle_density", problem));
     }
     let particle = particle(node, lambda, binder, radius)?;
     let round = particle.round();
     let (round, sections) = round
         .and_then(|round| Some((round, round.cross_sections()?)))
-        .ok_or_else(|| ParamError::new("particle", "a sphere with cross-sections is needed"))?;
+        .ok_or_else(|| ParameterError::new("particle", "a sphere with cross-sections is needed"))?;
     let (extinction, scattering) =
         (sections.extinction, sections.scattering.min(sections.extinction));
     if !(extinction > 0.0) {
-        return Ok(Slab::uniform(backing));
+        return Ok(DiffuseSlab::uniform(backing));
     }
     let g = if scattering > 0.0 { asymmetry(round, radius) } else { 0.0 };
     match node.integer("albedo") {
@@ -66,46 +70,48 @@ pub(super) fn read(node: &Node, lambda: f64, binder: f64) -> Result<Slab, ParamE
             thickness,
             backing,
         )
-        .map(Slab::uniform),
-        other => Err(ParamError::new("albedo", format!("{other} is not 0 or 1"))),
+        .map(DiffuseSlab::uniform),
+        other => Err(ParameterError::new("albedo", format!("{other} is not 0 or 1"))),
     }
 }
 
 /// The part of the volume that the particles of `node` fill.
-pub(super) fn filled(node: &Node) -> f64 {
+pub(super) fn filled(node: &ParameterNode) -> f64 {
     let radius = node.number("particle_radius");
     node.number("particle_density") * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3)
 }
 
 /// The number `name`, which must not be negative.
-pub(super) fn nonnegative(node: &Node, name: &str) -> Result<f64, ParamError> {
+pub(super) fn nonnegative(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let x = node.number(name);
     if x >= 0.0 && x.is_finite() {
         return Ok(x);
     }
-    Err(ParamError::new(name, format!("{x} is negative or not finite")))
+    Err(ParameterError::new(name, format!("{x} is negative or not finite")))
 }
 
 /// The particle in the binder: its own wavelength, medium and radius are those of the coating.
 fn particle(
-    node: &Node,
+    node: &ParameterNode,
     lambda: f64,
     binder: f64,
     radius: f64,
-) -> Result<Box<dyn Scatterer>, ParamError> {
+) -> Result<Box<dyn Scatterer>, ParameterError> {
     let inside = node
         .child("particle")
         .clone()
-        .with("lambda", Value::Number(lambda))
-        .and_then(|p| p.with("medium", Value::Index(Index::constant(binder, 0.0))))
-        .and_then(|p| p.with("radius", Value::Number(radius)));
+        .with("lambda", ParameterValue::Number(lambda))
+        .and_then(|p| {
+            p.with("medium", ParameterValue::Index(RefractiveIndex::constant(binder, 0.0)))
+        })
+        .and_then(|p| p.with("radius", ParameterValue::Number(radius)));
     inside
         .and_then(|particle| spec::build::<dyn Scatterer>(&particle))
         .map_err(|error| error.inside("particle"))
 }
 
 /// ⟨cos⟩ of the scattered light.
-fn asymmetry(round: &dyn Round, radius: f64) -> f64 {
+fn asymmetry(round: &dyn SphericalScatterer, radius: f64) -> f64 {
     // The intensity is a polynomial of twice as many orders as the size parameter has.
     let orders = round.surroundings().wave_number() * radius;
     let nodes = 32 + (2.0 * orders + 8.0 * orders.cbrt()) as usize;
@@ -119,14 +125,15 @@ fn asymmetry(round: &dyn Round, radius: f64) -> f64 {
     along / sum
 }
 
-fn kubelka_munk(k: f64, s: f64, thickness: f64, backing: f64) -> Result<f64, ParamError> {
-    let table = |x: f64| Value::Table(Table::constant(x));
-    let ground = Node::with_defaults(&reflectance::table::SPEC.class, Default::default())
+fn kubelka_munk(k: f64, s: f64, thickness: f64, backing: f64) -> Result<f64, ParameterError> {
+    let table = |x: f64| ParameterValue::Table(RealFunction::constant(x));
+    let ground = ParameterNode::with_defaults(&reflectance::table::SPEC.class, Default::default())
         .with("table", table(backing))?;
-    let node = Node::with_defaults(&reflectance::kubelka_munk::SPEC.class, Default::default())
-        .with("thickness", Value::Number(thickness))?
-        .with("absorption", table(k))?
-        .with("scattering", table(s))?
-        .with("substrate", Value::Member(Arc::new(ground)))?;
+    let node =
+        ParameterNode::with_defaults(&reflectance::kubelka_munk::SPEC.class, Default::default())
+            .with("thickness", ParameterValue::Number(thickness))?
+            .with("absorption", table(k))?
+            .with("scattering", table(s))?
+            .with("substrate", ParameterValue::Member(Arc::new(ground)))?;
     Ok(spec::build::<dyn Reflectance>(&node)?.at(1.0))
 }

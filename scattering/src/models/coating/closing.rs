@@ -15,9 +15,9 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{
-    interface::{Ray, realizable},
-    layered::{Above, Coat, Media},
-    returned::{Returned, Safe},
+    interface::{InterfaceRay, realizable},
+    layered::{Absorption, CoatLayer, LayersAbove},
+    returned::{DirectionalAlbedo, ErrorSign},
 };
 use crate::{Direction, Incidence, special::gauss};
 
@@ -27,14 +27,14 @@ const NODES: usize = 96;
 const AZIMUTHS: usize = 24;
 
 /// What of the light of each rough interface gets out.
-pub(super) struct Closing {
+pub(super) struct EnergyCompensation {
     /// x_j for the interfaces below others.
-    seen: Vec<Option<Returned>>,
+    seen: Vec<Option<DirectionalAlbedo>>,
 }
 
-impl Closing {
+impl EnergyCompensation {
     /// Nothing if all interfaces are smooth, or films absorb some of what is missing.
-    pub(super) fn new(coats: &[Coat]) -> Option<Self> {
+    pub(super) fn new(coats: &[CoatLayer]) -> Option<Self> {
         let rough = coats.iter().any(|coat| coat.interface.is_rough());
         if !rough || coats.iter().any(|coat| coat.interface.absorbs()) {
             return None;
@@ -43,12 +43,12 @@ impl Closing {
     }
 
     /// ρ without absorption.
-    pub(super) fn sent_back(&self, coats: &[Coat]) -> f64 {
+    pub(super) fn sent_back(&self, coats: &[CoatLayer]) -> f64 {
         let n = coats.last().map_or(1.0, |coat| coat.n);
         let out = gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
             let whole = (0..AZIMUTHS).map(|k| {
                 let (sin_2r, cos_2r) = (TAU * k as f64 / AZIMUTHS as f64).sin_cos();
-                let ray = Ray { turn: (cos_2r, sin_2r), ..Ray::mean(t.sin()) };
+                let ray = InterfaceRay { turn: (cos_2r, sin_2r), ..InterfaceRay::mean(t.sin()) };
                 let (passes, missing, _) = self.follow(coats, ray);
                 passes[0] + missing[0]
             });
@@ -58,7 +58,7 @@ impl Closing {
     }
 
     /// Adds to `row`, what of `ray` passes all layers, what reaches the body otherwise.
-    pub(super) fn add(&self, row: &mut [f64; 4], coats: &[Coat], ray: Ray) {
+    pub(super) fn add(&self, row: &mut [f64; 4], coats: &[CoatLayer], ray: InterfaceRay) {
         let (_, missing, left) = self.follow(coats, ray);
         for (x, m) in row.iter_mut().zip(missing) {
             *x += left * m;
@@ -66,8 +66,8 @@ impl Closing {
     }
 
     /// (p, m, what absorption leaves of m) of a ray.
-    fn follow(&self, coats: &[Coat], mut ray: Ray) -> ([f64; 4], [f64; 4], f64) {
-        let mut above = Above::NOTHING;
+    fn follow(&self, coats: &[CoatLayer], mut ray: InterfaceRay) -> ([f64; 4], [f64; 4], f64) {
+        let mut above = LayersAbove::NOTHING;
         let mut missing = [1.0, 0.0, 0.0, 0.0];
         let mut left = 1.0;
         let mut lessen = |by: [f64; 4]| {
@@ -84,8 +84,8 @@ impl Closing {
                 lessen(above.passes.before(out));
             }
             let below = ray.below(coat.interface.n);
-            above = coat.add(above, &ray, below.cos, Media::Clear);
-            left *= coat.left(below.cos, Media::Lossy);
+            above = coat.add(above, &ray, below.cos, Absorption::Clear);
+            left *= coat.left(below.cos, Absorption::Lossy);
             ray = below;
         }
         lessen(above.mirrored.row());
@@ -96,26 +96,27 @@ impl Closing {
 }
 
 /// What of the light of the rough interface of `coat` gets out through the layers `above` it.
-fn seen(above: &[Coat], coat: &Coat) -> Option<Returned> {
+fn seen(above: &[CoatLayer], coat: &CoatLayer) -> Option<DirectionalAlbedo> {
     let (facets, slopes) = (coat.interface.facets()?, coat.interface.slopes()?);
     let n = above.last()?.n;
     let rows = |at: &Incidence, to: &Direction| {
-        let inside = Ray::reversed(at, to);
+        let inside = InterfaceRay::reversed(at, to);
         let sin = inside.sin * n;
         if sin >= 1.0 {
             return [[0.0; 4]];
         }
-        let mut ray = Ray { turn: inside.turn, ..Ray::mean(sin) };
-        let mut passed = Above::NOTHING;
+        let mut ray = InterfaceRay { turn: inside.turn, ..InterfaceRay::mean(sin) };
+        let mut passed = LayersAbove::NOTHING;
         for coat in above {
             let below = ray.below(coat.interface.n);
-            passed = coat.add(passed, &ray, below.cos, Media::Clear);
+            passed = coat.add(passed, &ray, below.cos, Absorption::Clear);
             ray = below;
         }
         let (out, up) = (passed.passes.row(), facets.mueller(at, to).0);
         [std::array::from_fn(|j| out[0] * up[0][j] + out[1] * up[1][j])]
     };
     let edge = Some(1.0 / n);
-    let [seen] = Returned::tabulate(slopes, &rows, &|_| [[0.0; 4]], (edge, [Safe::Large]));
+    let [seen] =
+        DirectionalAlbedo::tabulate(slopes, &rows, &|_| [[0.0; 4]], (edge, [ErrorSign::Large]));
     Some(seen)
 }

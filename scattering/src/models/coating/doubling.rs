@@ -27,7 +27,7 @@ const OPAQUE: f64 = 1e7;
 
 /// What a body returns of diffuse light, and of beams.
 #[derive(Clone, Debug)]
-pub(super) struct Slab {
+pub(super) struct DiffuseSlab {
     /// Reflectance for diffuse light.
     pub(super) reflectance: f64,
     /// (μ, reflectance for a beam at μ over that for diffuse light, weight of the interpolation);
@@ -35,7 +35,7 @@ pub(super) struct Slab {
     beams: Vec<(f64, f64, f64)>,
 }
 
-impl Slab {
+impl DiffuseSlab {
     /// A body that returns the same of all beams.
     pub(super) fn uniform(reflectance: f64) -> Self {
         Self { reflectance, beams: Vec::new() }
@@ -63,12 +63,12 @@ impl Slab {
 
 /// A slab with optical depth `depth`, albedo `albedo` and asymmetry `g`, on a backing of diffuse
 /// reflectance `backing`.
-pub(super) fn slab(depth: f64, albedo: f64, g: f64, backing: f64) -> Slab {
+pub(super) fn slab(depth: f64, albedo: f64, g: f64, backing: f64) -> DiffuseSlab {
     let peak = g.abs().powi(2 * NODES as i32);
     let depth = (depth * (1.0 - albedo * peak)).min(OPAQUE);
     let albedo = albedo * (1.0 - peak) / (1.0 - albedo * peak);
     if !(depth > 0.0) {
-        return Slab::uniform(backing);
+        return DiffuseSlab::uniform(backing);
     }
     let nodes = gauss::legendre(NODES, 0.0, 1.0);
     let doublings = (depth / (THIN * nodes[0].0)).log2().ceil().max(0.0) as i32;
@@ -82,14 +82,14 @@ pub(super) fn slab(depth: f64, albedo: f64, g: f64, backing: f64) -> Slab {
     let sum = |i: usize| (0..NODES).map(|j| whole[(i, j)]).sum::<f64>();
     let reflectance = nodes.iter().enumerate().map(|(i, (mu, w))| 2.0 * mu * w * sum(i)).sum();
     if !(reflectance > 0.0) {
-        return Slab::uniform(0.0);
+        return DiffuseSlab::uniform(0.0);
     }
     let weight = |i: usize| -> f64 {
         let apart = |j: usize| if j == i { 1.0 } else { 4.0 * (nodes[i].0 - nodes[j].0) };
         1.0 / (0..NODES).map(apart).product::<f64>()
     };
     let beam = |i: usize| (nodes[i].0, sum(i) / reflectance, weight(i));
-    Slab { reflectance, beams: (0..NODES).map(beam).collect() }
+    DiffuseSlab { reflectance, beams: (0..NODES).map(beam).collect() }
 }
 
 fn unit() -> Mat<f64> {
@@ -198,9 +198,9 @@ mod tests {
     }
 
     /// Numbers from 0 to 1 (a linear congruential generator of Knuth's).
-    struct Random(u64);
+    struct KnuthGenerator(u64);
 
-    impl Random {
+    impl KnuthGenerator {
         fn next(&mut self) -> f64 {
             self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             ((self.0 >> 11) as f64 + 0.5) / (1u64 << 53) as f64
@@ -209,7 +209,7 @@ mod tests {
 
     /// The part of `photons` walks of diffuse light that leave a slab on a black backing upwards.
     fn walked(depth: f64, albedo: f64, g: f64, photons: u32) -> f64 {
-        let mut random = Random(11);
+        let mut random = KnuthGenerator(11);
         let mut returned = 0;
         for _ in 0..photons {
             let (mut z, mut mu) = (0.0, random.next().sqrt());

@@ -16,7 +16,7 @@
 
 /// The means over diffuse light inside the binder.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Means {
+pub(super) struct DiffuseMeans {
     /// ρ.
     pub(super) lid: f64,
     /// r_w.
@@ -31,7 +31,7 @@ pub(super) struct Means {
 
 /// The inverse of the matrix: what comes out by l and l, by l and c, by c and c.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Exchange {
+pub(super) struct InterreflectionMatrix {
     pub(super) ll: f64,
     pub(super) lc: f64,
     pub(super) cc: f64,
@@ -40,11 +40,11 @@ pub(super) struct Exchange {
 /// Below this nothing comes back from the surface.
 const NOTHING: f64 = 1e-12;
 
-impl Exchange {
+impl InterreflectionMatrix {
     /// Over a body of albedo `alpha`.
     ///
     /// Errors of the means are kept on the side of loss.
-    pub(super) fn new(means: &Means, alpha: f64) -> Self {
+    pub(super) fn new(means: &DiffuseMeans, alpha: f64) -> Self {
         let tau = means.passed_down;
         let (l, c) = means.escapes;
         let a = (means.lid - means.caught_again).max(l + alpha * tau);
@@ -65,14 +65,14 @@ mod tests {
     #[test]
     fn without_absorption_all_light_comes_out_of_both_spaces() {
         // Of the lid's 0.6, 0.2 pass down, 0.1 are caught again, 0.3 get out.
-        let means = Means {
+        let means = DiffuseMeans {
             lid: 0.6,
             caught_again: 0.1,
             passed_down: 0.2,
             below: 0.35,
             escapes: (0.3, 0.45),
         };
-        let g = Exchange::new(&means, 1.0);
+        let g = InterreflectionMatrix::new(&means, 1.0);
         assert!((g.ll * 0.3 + g.lc * 0.45 - 1.0).abs() < 1e-15);
         assert!((g.lc * 0.3 + g.cc * 0.45 - 1.0).abs() < 1e-15);
     }
@@ -80,27 +80,27 @@ mod tests {
     #[test]
     fn flakes_that_are_not_there_leave_the_body_under_its_surface() {
         let (rho, alpha) = (0.6, 0.7);
-        let means = Means {
+        let means = DiffuseMeans {
             lid: rho,
             caught_again: 0.0,
             passed_down: rho,
             below: 0.0,
             escapes: (0.0, 1.0 - rho),
         };
-        let g = Exchange::new(&means, alpha);
+        let g = InterreflectionMatrix::new(&means, alpha);
         assert!((g.cc - alpha / (1.0 - rho * alpha)).abs() < 1e-15);
     }
 
     #[test]
     fn a_black_body_gives_nothing_back() {
-        let means = Means {
+        let means = DiffuseMeans {
             lid: 0.6,
             caught_again: 0.1,
             passed_down: 0.2,
             below: 0.35,
             escapes: (0.3, 0.45),
         };
-        let g = Exchange::new(&means, 0.0);
+        let g = InterreflectionMatrix::new(&means, 0.0);
         assert_eq!((g.lc, g.cc), (0.0, 0.0));
         assert!(g.ll > 0.0);
     }

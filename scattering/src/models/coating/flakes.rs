@@ -12,13 +12,13 @@ use num_complex::Complex64;
 
 use super::{
     body::nonnegative,
-    interface::{Ray, Roughness, facets},
-    passage::Passage,
-    returned::{Returned, Safe},
+    interface::{InterfaceRay, RoughnessParameters, facets},
+    passage::TransmissionFactors,
+    returned::{DirectionalAlbedo, ErrorSign},
 };
 use crate::{
-    Direction, Incidence, Mueller, Node, ParamError,
-    models::{Brdf, Common},
+    Direction, Incidence, Mueller, ParameterError, ParameterNode,
+    models::{Brdf, CommonParameters},
     optics::film::Films,
     slope::SlopeDistribution,
     spec,
@@ -42,20 +42,20 @@ pub(super) struct Flakes {
     /// Facets of one thickness, with their share.
     kinds: Vec<(Box<dyn Brdf>, Films, f64)>,
     transparent: bool,
-    tables: Option<Tables>,
+    tables: Option<FlakeTables>,
 }
 
 /// What flakes return of a beam.
-struct Tables {
+struct FlakeTables {
     /// All of it, less what flat ones would return.
-    returned: Returned,
+    returned: DirectionalAlbedo,
     /// What of it comes back to them from the surface above.
-    caught: Returned,
+    caught: DirectionalAlbedo,
 }
 
 /// What goes on with diffuse light at flakes, s and p.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Fates {
+pub(super) struct FlakeFractions {
     /// Reflected.
     pub(super) returned: (f64, f64),
     /// Reflected and sent back by the surface.
@@ -67,21 +67,22 @@ pub(super) struct Fates {
 impl Flakes {
     /// The flakes of `node` in a binder of index `binder`.
     pub(super) fn read(
-        node: &Node,
-        common: &Common,
+        node: &ParameterNode,
+        common: &CommonParameters,
         binder: Complex64,
-    ) -> Result<Self, ParamError> {
+    ) -> Result<Self, ParameterError> {
         let spread = nonnegative(node, "flake_spread")?;
         if spread >= 1.0 / 3.0 {
             let problem =
                 format!("{spread} leaves flakes without thickness; below 1/3 is possible");
-            return Err(ParamError::new("flake_spread", problem));
+            return Err(ParameterError::new("flake_spread", problem));
         }
         let stack = node.member::<Stack>("stack")?.at(common.lambda);
         let transparent = (common.substrate / binder - 1.0).norm() < SAME;
         let core = if transparent { Complex64::ONE } else { common.substrate / binder.re };
         let lambda = common.lambda / binder.re;
-        let roughness = Roughness { slopes: node.child("sdf"), shadow: node.child("flake_shadow") };
+        let roughness =
+            RoughnessParameters { slopes: node.child("sdf"), shadow: node.child("flake_shadow") };
         let kind = |factor: f64, weight: f64| {
             let films: Vec<_> =
                 stack.iter().map(|&(index, t)| (index / binder.re, t * factor)).collect();
@@ -101,21 +102,22 @@ impl Flakes {
     /// from the sine `edge` on.
     pub(super) fn tabulate(
         &mut self,
-        node: &Node,
-        lid: &dyn Fn(&Ray) -> Passage,
+        node: &ParameterNode,
+        lid: &dyn Fn(&InterfaceRay) -> TransmissionFactors,
         edge: f64,
-    ) -> Result<(), ParamError> {
+    ) -> Result<(), ParameterError> {
         let slopes = node.member::<dyn SlopeDistribution>("sdf")?;
         let rows = |at: &Incidence, to: &Direction| {
             let up = self.mueller(at, to);
-            let back = lid(&Ray::reversed(at, to)).row();
+            let back = lid(&InterfaceRay::reversed(at, to)).row();
             let caught = std::array::from_fn(|j| back[0] * up.0[0][j] + back[1] * up.0[1][j]);
             [up.0[0], caught]
         };
         let flat = |sin: f64| [self.flat(sin).row(), [0.0; 4]];
-        let safe = [Safe::Large, Safe::Small];
-        let [returned, caught] = Returned::tabulate(&*slopes, &rows, &flat, (Some(edge), safe));
-        self.tables = Some(Tables { returned, caught });
+        let safe = [ErrorSign::Large, ErrorSign::Small];
+        let [returned, caught] =
+            DirectionalAlbedo::tabulate(&*slopes, &rows, &flat, (Some(edge), safe));
+        self.tables = Some(FlakeTables { returned, caught });
         Ok(())
     }
 
@@ -134,7 +136,7 @@ impl Flakes {
     }
 
     /// (returned, caught): rows of a ray above the flakes.
-    pub(super) fn rows(&self, ray: &Ray) -> ([f64; 4], [f64; 4]) {
+    pub(super) fn rows(&self, ray: &InterfaceRay) -> ([f64; 4], [f64; 4]) {
         let Some(tables) = &self.tables else { return ([0.0; 4], [0.0; 4]) };
         let (theta, (cos, sin)) = (ray.sin.min(1.0).asin(), ray.turn);
         let flat = self.flat(ray.sin).row();
@@ -146,8 +148,8 @@ impl Flakes {
     }
 
     /// The fates of a ray with this sine, the mean over azimuths.
-    pub(super) fn fates(&self, sin: f64) -> Fates {
-        let Some(tables) = &self.tables else { return Fates::default() };
+    pub(super) fn fates(&self, sin: f64) -> FlakeFractions {
+        let Some(tables) = &self.tables else { return FlakeFractions::default() };
         let theta = sin.min(1.0).asin();
         let flat = self.flat(sin);
         let more = tables.returned.mean(theta);
@@ -160,7 +162,7 @@ impl Flakes {
         } else {
             (0.0, 0.0)
         };
-        Fates { returned, caught: part(tables.caught.mean(theta)), passed }
+        FlakeFractions { returned, caught: part(tables.caught.mean(theta)), passed }
     }
 
     /// What flat transparent flakes absorb of s and p.
@@ -170,22 +172,25 @@ impl Flakes {
     }
 
     /// What flat flakes reflect.
-    fn flat(&self, sin: f64) -> Passage {
+    fn flat(&self, sin: f64) -> TransmissionFactors {
         self.mean(|films| films.r12(sin.into()))
     }
 
-    fn mean(&self, of: impl Fn(&Films) -> crate::optics::film::Pair) -> Passage {
-        self.kinds.iter().fold(Passage::NONE, |sum, (_, films, weight)| {
-            sum.plus(Passage::of(of(films), *weight))
+    fn mean(
+        &self,
+        of: impl Fn(&Films) -> crate::optics::film::SpAmplitudes,
+    ) -> TransmissionFactors {
+        self.kinds.iter().fold(TransmissionFactors::NONE, |sum, (_, films, weight)| {
+            sum.plus(TransmissionFactors::of(of(films), *weight))
         })
     }
 }
 
 /// The names that the flakes' facets have in the coating.
-fn rename(error: ParamError) -> ParamError {
+fn rename(error: ParameterError) -> ParameterError {
     let parameter = match error.parameter.strip_prefix("shadow") {
         Some(rest) => format!("flake_shadow{rest}"),
         None => error.parameter,
     };
-    ParamError { parameter, problem: error.problem }
+    ParameterError { parameter, problem: error.problem }
 }

@@ -14,9 +14,9 @@ use std::sync::Arc;
 use num_complex::Complex64;
 
 use crate::{
-    Node, ParamError,
-    optics::{Index, Table},
-    spec::{Family, Kind, Value, is_below},
+    ParameterError, ParameterNode,
+    optics::{RealFunction, RefractiveIndex},
+    spec::{Family, ParameterKind, ParameterValue, is_below},
     stack::Film,
 };
 
@@ -36,48 +36,60 @@ const MEANINGLESS: &[(&str, &str)] = &[
 ///
 /// For what describes an instrument, a fit or a structure by a text, and for gratings with an
 /// incident medium of their own: these have no meaning inside a coat.
-pub(super) fn immersed(name: &str, node: &Node, n: f64, lambda: f64) -> Result<Node, ParamError> {
-    Medium { n, lambda }.immerse(name, node, Family::Brdf)
+pub(super) fn immersed(
+    name: &str,
+    node: &ParameterNode,
+    n: f64,
+    lambda: f64,
+) -> Result<ParameterNode, ParameterError> {
+    ImmersionMedium { n, lambda }.immerse(name, node, Family::Brdf)
 }
 
 /// The medium of the light.
-struct Medium {
+struct ImmersionMedium {
     n: f64,
     /// Vacuum wavelength, µm.
     lambda: f64,
 }
 
-impl Medium {
-    fn immerse(&self, name: &str, node: &Node, family: Family) -> Result<Node, ParamError> {
+impl ImmersionMedium {
+    fn immerse(
+        &self,
+        name: &str,
+        node: &ParameterNode,
+        family: Family,
+    ) -> Result<ParameterNode, ParameterError> {
         let class = node.class.name;
         if let Some((_, why)) = MEANINGLESS.iter().find(|(base, _)| is_below(class, base)) {
             let problem = format!("{class} has no meaning below a coat: {why}");
-            return Err(ParamError::new(name, problem));
+            return Err(ParameterError::new(name, problem));
         }
         let mut node = node.clone();
         for (value, param) in node.values.iter_mut().zip(node.class.parameters()) {
             *value = match (&*value, param.kind) {
-                (Value::Member(child), Kind::Member(family, _)) => {
+                (ParameterValue::Member(child), ParameterKind::Member(family, _)) => {
                     let inner = self.immerse(param.name, child, family);
-                    Value::Member(Arc::new(inner.map_err(|error| error.inside(name))?))
+                    ParameterValue::Member(Arc::new(inner.map_err(|error| error.inside(name))?))
                 }
-                (Value::Number(x), _) if param.name == "lambda" => Value::Number(x / self.n),
-                (Value::Index(index), _) if param.name == "medium_i" => {
+                (ParameterValue::Number(x), _) if param.name == "lambda" => {
+                    ParameterValue::Number(x / self.n)
+                }
+                (ParameterValue::Index(index), _) if param.name == "medium_i" => {
                     let own = index.at(self.lambda);
                     if own != Complex64::ONE {
                         let problem =
                             format!("{own}: below a coat the incident medium is the coat; write 1");
-                        return Err(ParamError::new(param.name, problem).inside(name));
+                        return Err(ParameterError::new(param.name, problem).inside(name));
                     }
-                    Value::Index(index.clone())
+                    ParameterValue::Index(index.clone())
                 }
                 // Functions of wavelength; those of other families are functions of an angle.
-                (Value::Table(table), _) if family == Family::Reflectance => {
-                    Value::Table(Table::constant(table.at(self.lambda)))
+                (ParameterValue::Table(table), _) if family == Family::Reflectance => {
+                    ParameterValue::Table(RealFunction::constant(table.at(self.lambda)))
                 }
-                (Value::Formula(formula), _) if family == Family::Reflectance => {
+                (ParameterValue::Formula(formula), _) if family == Family::Reflectance => {
                     let at_lambda = formula(self.lambda);
-                    Value::Formula(Arc::new(move |_| at_lambda))
+                    ParameterValue::Formula(Arc::new(move |_| at_lambda))
                 }
                 (other, _) => self.optical(other),
             };
@@ -85,23 +97,23 @@ impl Medium {
         Ok(node)
     }
 
-    fn optical(&self, value: &Value) -> Value {
+    fn optical(&self, value: &ParameterValue) -> ParameterValue {
         match value {
-            Value::Index(index) => Value::Index(self.relative(index)),
-            Value::Films(films) => {
+            ParameterValue::Index(index) => ParameterValue::Index(self.relative(index)),
+            ParameterValue::Films(films) => {
                 let film = |film: &Film| Film {
                     index: self.relative(&film.index),
                     thickness: film.thickness,
                 };
-                Value::Films(films.iter().map(film).collect())
+                ParameterValue::Films(films.iter().map(film).collect())
             }
             other => other.clone(),
         }
     }
 
-    fn relative(&self, index: &Index) -> Index {
+    fn relative(&self, index: &RefractiveIndex) -> RefractiveIndex {
         let at = index.at(self.lambda) / self.n;
-        Index::constant(at.re, at.im)
+        RefractiveIndex::constant(at.re, at.im)
     }
 }
 
@@ -111,8 +123,8 @@ mod tests {
 
     use super::*;
 
-    fn defaults(name: &str) -> Node {
-        Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+    fn defaults(name: &str) -> ParameterNode {
+        ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
     }
 
     #[test]
@@ -139,17 +151,24 @@ mod tests {
         // In water every length counts n times: the same numbers come of thicker things in air.
         let at = Geometry { theta_i: 0.5, theta_s: 0.9, phi_s: 0.7, rotation: 0.1 };
         let n = 1.33;
-        let sphere = |node: Node, radius: f64, index: f64, density: f64| {
+        let sphere = |node: ParameterNode, radius: f64, index: f64, density: f64| {
             let scatterer = node.child("scatterer").clone();
             let scatterer = scatterer
-                .with("lambda", Value::Number(0.532))
-                .and_then(|s| s.with("radius", Value::Number(radius)))
-                .and_then(|s| s.with("sphere", Value::Index(Index::constant(index, 0.0))))
+                .with("lambda", ParameterValue::Number(0.532))
+                .and_then(|s| s.with("radius", ParameterValue::Number(radius)))
+                .and_then(|s| {
+                    s.with("sphere", ParameterValue::Index(RefractiveIndex::constant(index, 0.0)))
+                })
                 .unwrap();
-            node.with("scatterer", Value::Member(scatterer.into()))
-                .and_then(|n| n.with("distance", Value::Number(radius)))
-                .and_then(|n| n.with("density", Value::Number(density)))
-                .and_then(|n| n.with("substrate", Value::Index(Index::constant(index, 0.0))))
+            node.with("scatterer", ParameterValue::Member(scatterer.into()))
+                .and_then(|n| n.with("distance", ParameterValue::Number(radius)))
+                .and_then(|n| n.with("density", ParameterValue::Number(density)))
+                .and_then(|n| {
+                    n.with(
+                        "substrate",
+                        ParameterValue::Index(RefractiveIndex::constant(index, 0.0)),
+                    )
+                })
                 .unwrap()
         };
         let name = "Double_Interaction_BRDF_Model";
@@ -168,10 +187,11 @@ mod tests {
             assert!(error.problem.contains("no meaning"), "{error}");
         }
         let grating = defaults("Single_Line_Grating")
-            .with("medium_i", Value::Index(Index::constant(1.5, 0.0)))
+            .with("medium_i", ParameterValue::Index(RefractiveIndex::constant(1.5, 0.0)))
             .unwrap();
-        let model =
-            defaults("RCW_BRDF_Model").with("grating", Value::Member(grating.into())).unwrap();
+        let model = defaults("RCW_BRDF_Model")
+            .with("grating", ParameterValue::Member(grating.into()))
+            .unwrap();
         let error = immersed("model", &model, 1.5, 0.532).unwrap_err();
         assert_eq!(error.parameter, "model.grating.medium_i");
     }

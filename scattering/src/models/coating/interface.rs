@@ -1,20 +1,20 @@
 //! One interface of a coating, smooth or rough, seen from the medium above it.
 //!
 //! A smooth interface lets pass what Fresnel's equations say. A rough one with the facet BRDF F
-//! returns the row e of [`Returned`]; what passes is then the rest, t = (1, 0, 0, 0) − e less what
+//! returns the row e of [`DirectionalAlbedo`]; what passes is then the rest, t = (1, 0, 0, 0) − e less what
 //! the films absorb, so that no energy is lost or gained whatever the roughness. Light is taken to
 //! go on in the direction of Snell's law.
 
 use num_complex::Complex64;
 
 use super::{
-    passage::Passage,
-    returned::{Returned, Safe},
+    passage::TransmissionFactors,
+    returned::{DirectionalAlbedo, ErrorSign},
 };
 use crate::{
-    Direction, Incidence, Mode, Mueller, Node, ParamError, Value,
+    Direction, Incidence, Mode, Mueller, ParameterError, ParameterNode, ParameterValue,
     models::{Brdf, facet::shadowed},
-    optics::{Index, film::Films},
+    optics::{RefractiveIndex, film::Films},
     slope::SlopeDistribution,
     spec,
     stack::Film,
@@ -25,22 +25,22 @@ pub(super) struct Interface {
     /// Index below over index above.
     pub(super) n: f64,
     films: Films,
-    rough: Option<Rough>,
+    rough: Option<RoughInterface>,
     absorbs: bool,
     /// Σ |n| t of the films, µm.
     optical_thickness: f64,
 }
 
 /// The facets of a rough interface and what they return.
-struct Rough {
+struct RoughInterface {
     facets: Box<dyn Brdf>,
     slopes: Box<dyn SlopeDistribution>,
-    returned: Returned,
+    returned: DirectionalAlbedo,
 }
 
 /// A ray at an interface: its angle above, its azimuth in the sample.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ray {
+pub(super) struct InterfaceRay {
     /// sin θ.
     pub(super) sin: f64,
     /// cos θ.
@@ -49,7 +49,7 @@ pub(super) struct Ray {
     pub(super) turn: (f64, f64),
 }
 
-impl Ray {
+impl InterfaceRay {
     /// The incident beam.
     pub(super) fn incident(at: &Incidence) -> Self {
         let (c, s) = (at.cos_rotation, at.sin_rotation);
@@ -88,11 +88,11 @@ impl Ray {
 }
 
 /// The roughness of an interface: members of the families Slope and Shadow, not yet built.
-pub(super) struct Roughness<'a> {
+pub(super) struct RoughnessParameters<'a> {
     /// Slopes.
-    pub(super) slopes: &'a Node,
+    pub(super) slopes: &'a ParameterNode,
     /// Shadowing.
-    pub(super) shadow: &'a Node,
+    pub(super) shadow: &'a ParameterNode,
 }
 
 impl Interface {
@@ -102,13 +102,15 @@ impl Interface {
         (above, below): (f64, f64),
         films: &[(Complex64, f64)],
         lambda: f64,
-        roughness: Option<Roughness<'_>>,
-    ) -> Result<Self, ParamError> {
+        roughness: Option<RoughnessParameters<'_>>,
+    ) -> Result<Self, ParameterError> {
         let n = below / above;
         let films: Vec<_> = films.iter().map(|&(index, t)| (index / above, t)).collect();
         let stack = Films::new(&films, Complex64::ONE, n.into(), lambda / above);
         let rough = roughness
-            .map(|roughness| Rough::new(n.into(), &films, lambda / above, &stack, &roughness))
+            .map(|roughness| {
+                RoughInterface::new(n.into(), &films, lambda / above, &stack, &roughness)
+            })
             .transpose()?;
         let absorbs = films.iter().any(|(index, _)| index.im != 0.0);
         let optical_thickness = above * films.iter().map(|(n, t)| n.norm() * t).sum::<f64>();
@@ -136,7 +138,7 @@ impl Interface {
     }
 
     /// What the facets return of a ray, all of it.
-    pub(super) fn returned(&self, ray: &Ray) -> [f64; 4] {
+    pub(super) fn returned(&self, ray: &InterfaceRay) -> [f64; 4] {
         let [i, q, u, v] = self.crossing(ray).row;
         [1.0 - i, -q, -u, -v]
     }
@@ -147,12 +149,12 @@ impl Interface {
     }
 
     /// What passes a smooth interface, for a ray from either side.
-    fn smooth(&self, sin: f64, cos: f64, cos_below: f64) -> Passage {
-        Passage::of(self.films.t12(sin.into()), self.n * cos_below / cos)
+    fn smooth(&self, sin: f64, cos: f64, cos_below: f64) -> TransmissionFactors {
+        TransmissionFactors::of(self.films.t12(sin.into()), self.n * cos_below / cos)
     }
 
     /// What passes, s and p alone.
-    pub(super) fn passage(&self, ray: &Ray) -> Passage {
+    pub(super) fn passage(&self, ray: &InterfaceRay) -> TransmissionFactors {
         let smooth = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos);
         match &self.rough {
             None => smooth,
@@ -161,13 +163,13 @@ impl Interface {
     }
 
     /// What would pass if it were smooth.
-    pub(super) fn smooth_passage(&self, sin: f64) -> Passage {
-        let ray = Ray::mean(sin);
+    pub(super) fn smooth_passage(&self, sin: f64) -> TransmissionFactors {
+        let ray = InterfaceRay::mean(sin);
         self.smooth(sin, ray.cos, ray.below(self.n).cos)
     }
 
     /// The mean of [`Interface::passage`] over azimuths.
-    pub(super) fn mean_passage(&self, sin: f64) -> Passage {
+    pub(super) fn mean_passage(&self, sin: f64) -> TransmissionFactors {
         let smooth = self.smooth_passage(sin);
         match &self.rough {
             None => smooth,
@@ -176,10 +178,10 @@ impl Interface {
     }
 
     /// What passes in both ways of telling it.
-    pub(super) fn crossing(&self, ray: &Ray) -> Crossing {
+    pub(super) fn crossing(&self, ray: &InterfaceRay) -> InterfaceTransmission {
         let smooth = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos);
         let Some(rough) = &self.rough else {
-            return Crossing { kept: smooth, row: smooth.row() };
+            return InterfaceTransmission { kept: smooth, row: smooth.row() };
         };
         let more = rough.at(ray);
         let mut row = smooth.row();
@@ -192,19 +194,19 @@ impl Interface {
         let oblique = more[2].hypot(more[3]);
         let part = if oblique < least { 1.0 - oblique / least } else { 0.0 };
         let kept = if oblique > 0.0 { passage.scaled(part) } else { passage };
-        Crossing { kept, row: realizable(row) }
+        InterfaceTransmission { kept, row: realizable(row) }
     }
 
     /// What a ray from below with this sine on top meets again below; beyond 1 it is reflected
     /// totally. A rough interface sends back what it lets pass less than a smooth one.
-    fn sent_back(&self, sin: f64, passes: impl Fn() -> Passage) -> Passage {
+    fn sent_back(&self, sin: f64, passes: impl Fn() -> TransmissionFactors) -> TransmissionFactors {
         let reflected = self.reflects_below(sin);
         if self.rough.is_none() || sin >= 1.0 {
             return reflected;
         }
         let (smooth, rough) = (self.smooth_passage(sin), passes());
         let back = |r: f64, smooth: f64, rough: f64| (r + smooth - rough).clamp(0.0, 1.0);
-        Passage {
+        TransmissionFactors {
             s: back(reflected.s, smooth.s, rough.s),
             p: back(reflected.p, smooth.p, rough.p),
             c: reflected.c,
@@ -212,32 +214,32 @@ impl Interface {
     }
 
     /// What the interface sends back of a ray from below it.
-    pub(super) fn sends_back(&self, below: &Ray) -> Passage {
+    pub(super) fn sends_back(&self, below: &InterfaceRay) -> TransmissionFactors {
         let sin = below.sin * self.n;
         self.sent_back(sin, || {
-            self.passage(&Ray { sin, cos: (1.0 - sin * sin).sqrt(), turn: below.turn })
+            self.passage(&InterfaceRay { sin, cos: (1.0 - sin * sin).sqrt(), turn: below.turn })
         })
     }
 
     /// The mean of [`Interface::sends_back`] over azimuths, for a ray whose sine on top is `sin`.
-    pub(super) fn mean_sent_back(&self, sin: f64) -> Passage {
+    pub(super) fn mean_sent_back(&self, sin: f64) -> TransmissionFactors {
         self.sent_back(sin, || self.mean_passage(sin))
     }
 
     /// Smooth reflection of light from above with this sine.
-    pub(super) fn reflects_above(&self, sin: f64) -> Passage {
-        Passage::of(self.films.r12(sin.into()), 1.0)
+    pub(super) fn reflects_above(&self, sin: f64) -> TransmissionFactors {
+        TransmissionFactors::of(self.films.r12(sin.into()), 1.0)
     }
 
     /// Smooth reflection of light from below; `sin` is n times the sine there, and may exceed 1.
-    pub(super) fn reflects_below(&self, sin: f64) -> Passage {
-        Passage::of(self.films.r21(sin.into()), 1.0)
+    pub(super) fn reflects_below(&self, sin: f64) -> TransmissionFactors {
+        TransmissionFactors::of(self.films.r21(sin.into()), 1.0)
     }
 }
 
-impl Rough {
+impl RoughInterface {
     /// What comes back of a ray more than from a smooth interface.
-    fn at(&self, ray: &Ray) -> [f64; 4] {
+    fn at(&self, ray: &InterfaceRay) -> [f64; 4] {
         self.returned.at(ray.sin.asin(), ray.turn.0, ray.turn.1)
     }
 
@@ -246,19 +248,20 @@ impl Rough {
         films: &[(Complex64, f64)],
         lambda: f64,
         stack: &Films,
-        roughness: &Roughness<'_>,
-    ) -> Result<Self, ParamError> {
+        roughness: &RoughnessParameters<'_>,
+    ) -> Result<Self, ParameterError> {
         let node = facets(n, films, lambda, roughness)?;
         let facets = spec::build::<dyn Brdf>(&node)?;
         let slopes = spec::build::<dyn SlopeDistribution>(roughness.slopes)?;
-        let smooth = |sin: f64| [Passage::of(stack.r12(sin.into()), 1.0).row()];
+        let smooth = |sin: f64| [TransmissionFactors::of(stack.r12(sin.into()), 1.0).row()];
         let rows = |at: &Incidence, to: &Direction| [facets.mueller(at, to).0[0]];
-        let [returned] = Returned::tabulate(&*slopes, &rows, &smooth, (None, [Safe::Large]));
+        let [returned] =
+            DirectionalAlbedo::tabulate(&*slopes, &rows, &smooth, (None, [ErrorSign::Large]));
         Ok(Self { facets, slopes, returned })
     }
 
     /// `smooth` less what the facets return more than a smooth interface would.
-    fn lessen(&self, smooth: Passage, more: [f64; 4]) -> Passage {
+    fn lessen(&self, smooth: TransmissionFactors, more: [f64; 4]) -> TransmissionFactors {
         let s = (smooth.s - more[0] - more[1]).clamp(0.0, 1.0);
         let p = (smooth.p - more[0] + more[1]).clamp(0.0, 1.0);
         smooth.with_intensities(s, p)
@@ -266,9 +269,9 @@ impl Rough {
 }
 
 /// What passes an interface.
-pub(super) struct Crossing {
+pub(super) struct InterfaceTransmission {
     /// With its polarization: s, p and their coherence.
-    pub(super) kept: Passage,
+    pub(super) kept: TransmissionFactors,
     /// The row of all that passes of a Stokes vector.
     pub(super) row: [f64; 4],
 }
@@ -286,23 +289,27 @@ pub(super) fn facets(
     n: Complex64,
     films: &[(Complex64, f64)],
     lambda: f64,
-    roughness: &Roughness<'_>,
-) -> Result<Node, ParamError> {
-    let index = |n: Complex64| Index::constant(n.re, n.im);
+    roughness: &RoughnessParameters<'_>,
+) -> Result<ParameterNode, ParameterError> {
+    let index = |n: Complex64| RefractiveIndex::constant(n.re, n.im);
     let film = |&(n, thickness): &(Complex64, f64)| Film { index: index(n), thickness };
     let films = films.iter().map(film).collect();
-    let stack = Node::with_defaults(&crate::stack::list::SPEC.class, Mode::Sound)
-        .with("stack", Value::Films(films))?;
-    Node::with_defaults(&shadowed::SPEC.class, Mode::Sound)
-        .with("lambda", Value::Number(lambda))?
-        .with("substrate", Value::Index(index(n)))?
-        .with("stack", Value::Member(stack.into()))?
-        .with("sdf", Value::Member(roughness.slopes.clone().into()))?
-        .with("shadow", Value::Member(roughness.shadow.clone().into()))
+    let stack = ParameterNode::with_defaults(&crate::stack::list::SPEC.class, Mode::Sound)
+        .with("stack", ParameterValue::Films(films))?;
+    ParameterNode::with_defaults(&shadowed::SPEC.class, Mode::Sound)
+        .with("lambda", ParameterValue::Number(lambda))?
+        .with("substrate", ParameterValue::Index(index(n)))?
+        .with("stack", ParameterValue::Member(stack.into()))?
+        .with("sdf", ParameterValue::Member(roughness.slopes.clone().into()))?
+        .with("shadow", ParameterValue::Member(roughness.shadow.clone().into()))
 }
 
 /// Reflected by `brdf` below an interface, seen from above: what passes in, times F, times what
 /// passes out, over n².
-pub(super) fn behind((out, into): (Passage, Passage), inner: Mueller, n_squared: f64) -> Mueller {
+pub(super) fn behind(
+    (out, into): (TransmissionFactors, TransmissionFactors),
+    inner: Mueller,
+    n_squared: f64,
+) -> Mueller {
     out.matrix() * inner * into.matrix() * (1.0 / n_squared)
 }

@@ -7,13 +7,13 @@
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.6.
 
 use crate::{
-    Node,
-    optics::Index,
-    spec::{Class, Family, Laws, Member, Param, ParamError, Spec},
+    ParameterNode,
+    optics::RefractiveIndex,
+    spec::{Class, Family, Laws, Member, Parameter, ParameterError, Spec},
 };
 
 /// How programs name, parameterize and build it.
-pub const SPEC: Spec<Layer> = Spec {
+pub const SPEC: Spec<CoatingLayer> = Spec {
     class: Class {
         name: "Coat_Layer",
         parent: "Layer",
@@ -21,23 +21,23 @@ pub const SPEC: Spec<Layer> = Spec {
         equation: "A = exp(-4 pi k t/(lambda cos(theta')))",
         source: "born-1999",
         params: &[&[
-            Param::index("material", "(1.5,0)", "Index of the layer; n at least 1"),
-            Param::number("thickness", "10", "um", "Thickness; 0: no layer"),
-            Param::member(
+            Parameter::index("material", "(1.5,0)", "Index of the layer; n at least 1"),
+            Parameter::number("thickness", "10", "um", "Thickness; 0: no layer"),
+            Parameter::member(
                 "stack",
                 Family::Stack,
                 "StackModel",
                 "No_StackModel",
                 "Films on the upper face, which interfere",
             ),
-            Param::member(
+            Parameter::member(
                 "sdf",
                 Family::Slope,
                 "Slope_Distribution_Function",
                 "Unit_Slope_Distribution_Function",
                 "Slopes of the upper face; Unit_Slope_Distribution_Function: smooth",
             ),
-            Param::member(
+            Parameter::member(
                 "shadow",
                 Family::Shadow,
                 "Shadow_Function",
@@ -50,9 +50,12 @@ pub const SPEC: Spec<Layer> = Spec {
     build: |node| {
         let thickness = node.number("thickness");
         if !(thickness >= 0.0 && thickness.is_finite()) {
-            return Err(ParamError::new("thickness", format!("{thickness} um is not a thickness")));
+            return Err(ParameterError::new(
+                "thickness",
+                format!("{thickness} um is not a thickness"),
+            ));
         }
-        Ok(Box::new(Layer {
+        Ok(Box::new(CoatingLayer {
             material: node.index("material").clone(),
             thickness,
             node: node.clone(),
@@ -62,19 +65,19 @@ pub const SPEC: Spec<Layer> = Spec {
 
 /// A thick layer.
 #[derive(Clone, Debug)]
-pub struct Layer {
+pub struct CoatingLayer {
     /// Its index.
-    pub material: Index,
+    pub material: RefractiveIndex,
     /// Its thickness, µm.
     pub thickness: f64,
     /// The rest: films and roughness of its upper face.
-    pub(super) node: Node,
+    pub(super) node: ParameterNode,
 }
 
 /// All of them, in the order they are listed to users.
-pub const ALL: &[&Spec<Layer>] = &[&SPEC];
+pub const ALL: &[&Spec<CoatingLayer>] = &[&SPEC];
 
-impl Member for Layer {
+impl Member for CoatingLayer {
     const FAMILY: Family = Family::Layer;
 
     fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {

@@ -15,7 +15,7 @@
 //! coherence (T_1 T_2/(1 − A R_1 R_2 A), and so on downwards). A diffuse body at the bottom
 //! (`Lambertian_BRDF_Model`, or `Diffuse_Subsurface_BRDF_Model` with its own interface) gets the
 //! factor 1/(1 − ρR), ρ the part of diffuse light that all layers send back. What rough interfaces
-//! neither let pass nor send out counts as diffuse light that reaches the body ([`Closing`]).
+//! neither let pass nor send out counts as diffuse light that reaches the body ([`EnergyCompensation`]).
 //! Without absorption coats over a white body therefore lose no light, whatever their roughness and
 //! whatever the polarization of the light.
 //!
@@ -35,17 +35,17 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 use num_complex::Complex64;
 
 use super::{
-    closing::Closing,
+    closing::EnergyCompensation,
     immersed::immersed,
-    interface::{Interface, Ray, Roughness, behind},
-    layer::Layer,
-    passage::{Passage, depolarized},
+    interface::{Interface, InterfaceRay, RoughnessParameters, behind},
+    layer::CoatingLayer,
+    passage::{TransmissionFactors, depolarized},
 };
 use crate::{
-    Basis, Direction, Incidence, Model, Mueller, Node, ParamError,
-    models::{self, Brdf, COMMON, Common, diffuse},
+    Basis, Direction, Incidence, Model, Mueller, ParameterError, ParameterNode,
+    models::{self, Brdf, COMMON, CommonParameters, diffuse},
     reflectance, slope,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
     special::gauss,
     stack::Stack,
 };
@@ -61,14 +61,14 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         params: &[
             COMMON,
             &[
-                Param::member(
+                Parameter::member(
                     "model",
                     Family::Brdf,
                     "BRDF_Model",
                     "Lambertian_BRDF_Model",
                     "The model below all layers",
                 ),
-                Param::integer("layers", "1", "How many layers there are, 0 to 4"),
+                Parameter::integer("layers", "1", "How many layers there are, 0 to 4"),
                 layer("layer1", "The uppermost layer"),
                 layer("layer2", "The second layer from above"),
                 layer("layer3", "The third layer from above"),
@@ -77,11 +77,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         ],
         laws: Laws::NOT_PASSIVE,
     },
-    build: |node| Ok(Box::new(Layered::read(node)?)),
+    build: |node| Ok(Box::new(LayeredModel::read(node)?)),
 };
 
-const fn layer(name: &'static str, doc: &'static str) -> Param {
-    Param::member(name, Family::Layer, "Layer", "Coat_Layer", doc)
+const fn layer(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::member(name, Family::Layer, "Layer", "Coat_Layer", doc)
 }
 
 const NAMES: [&str; 4] = ["layer1", "layer2", "layer3", "layer4"];
@@ -90,15 +90,15 @@ const NAMES: [&str; 4] = ["layer1", "layer2", "layer3", "layer4"];
 const NODES: usize = 64;
 
 /// Layers over a model.
-struct Layered {
-    common: Common,
+struct LayeredModel {
+    common: CommonParameters,
     /// From above.
-    coats: Vec<Coat>,
-    bottom: Bottom,
+    coats: Vec<CoatLayer>,
+    bottom: LowestSurface,
 }
 
 /// A layer with the interface on it.
-pub(super) struct Coat {
+pub(super) struct CoatLayer {
     pub(super) interface: Interface,
     /// Index of the layer.
     pub(super) n: f64,
@@ -107,13 +107,13 @@ pub(super) struct Coat {
 }
 
 /// What lies below all layers.
-enum Bottom {
+enum LowestSurface {
     /// A diffuse body of this reflectance, for light inside the last layer.
     Diffuse {
         /// R/(π(1 − ρR)).
         strength: f64,
         /// What reaches it by way of rough interfaces.
-        closing: Option<Closing>,
+        closing: Option<EnergyCompensation>,
     },
     /// Any other model, immersed.
     Immersed(Model),
@@ -121,53 +121,58 @@ enum Bottom {
 
 /// All layers down to some depth, for one ray.
 #[derive(Clone, Copy)]
-pub(super) struct Above {
+pub(super) struct LayersAbove {
     /// What passes.
-    pub(super) passes: Passage,
+    pub(super) passes: TransmissionFactors,
     /// What comes back of light from below, through the last layer and back.
-    returns: Passage,
+    returns: TransmissionFactors,
     /// What smooth interfaces send out again.
-    pub(super) mirrored: Passage,
+    pub(super) mirrored: TransmissionFactors,
 }
 
-impl Above {
-    pub(super) const NOTHING: Self =
-        Self { passes: Passage::FREE, returns: Passage::NONE, mirrored: Passage::NONE };
+impl LayersAbove {
+    pub(super) const NOTHING: Self = Self {
+        passes: TransmissionFactors::FREE,
+        returns: TransmissionFactors::NONE,
+        mirrored: TransmissionFactors::NONE,
+    };
 }
 
 /// Whether the absorption of layers is taken or left out.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Media {
+pub(super) enum Absorption {
     Lossy,
     Clear,
 }
 
-impl Layered {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+impl LayeredModel {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         common.only_reflection(SPEC.class.name)?;
         let mut coats = Vec::new();
         let below = add_coats(node, &common, &mut coats)?;
         let n = coats.last().map_or(1.0, |coat| coat.n);
         let bottom = match diffuse_body(&below, &common, &mut coats)? {
             Some(reflectance) => {
-                let closing = Closing::new(&coats);
+                let closing = EnergyCompensation::new(&coats);
                 let rho = match &closing {
-                    None => recycled(&coats, common.lambda, Media::Lossy),
+                    None => recycled(&coats, common.lambda, Absorption::Lossy),
                     Some(closing) => {
                         // Absorption on the way back is that of light which is not caught.
-                        let clear = recycled(&coats, common.lambda, Media::Clear);
-                        let lossy = recycled(&coats, common.lambda, Media::Lossy);
+                        let clear = recycled(&coats, common.lambda, Absorption::Clear);
+                        let lossy = recycled(&coats, common.lambda, Absorption::Lossy);
                         let kept = if clear > 0.0 { (lossy / clear).min(1.0) } else { 1.0 };
                         kept * closing.sent_back(&coats)
                     }
                 };
                 let strength = FRAC_1_PI * reflectance / (1.0 - rho * reflectance);
-                Bottom::Diffuse { strength, closing }
+                LowestSurface::Diffuse { strength, closing }
             }
             None => {
                 let inside = immersed("model", &below, n, common.lambda)?;
-                Bottom::Immersed(models::build(&inside).map_err(|error| error.inside("model"))?)
+                LowestSurface::Immersed(
+                    models::build(&inside).map_err(|error| error.inside("model"))?,
+                )
             }
         };
         Ok(Self { common, coats, bottom })
@@ -175,18 +180,27 @@ impl Layered {
 }
 
 /// Adds the layers of `node`, and those of a layered model below them; returns the model below all.
-fn add_coats(node: &Node, common: &Common, coats: &mut Vec<Coat>) -> Result<Node, ParamError> {
+fn add_coats(
+    node: &ParameterNode,
+    common: &CommonParameters,
+    coats: &mut Vec<CoatLayer>,
+) -> Result<ParameterNode, ParameterError> {
     let count = node.integer("layers");
     if !(0..=NAMES.len() as i32).contains(&count) {
-        return Err(ParamError::new("layers", format!("{count} is not from 0 to {}", NAMES.len())));
+        return Err(ParameterError::new(
+            "layers",
+            format!("{count} is not from 0 to {}", NAMES.len()),
+        ));
     }
     for name in &NAMES[..count as usize] {
-        let layer = node.member::<Layer>(name)?;
+        let layer = node.member::<CoatingLayer>(name)?;
         if layer.thickness == 0.0 {
             continue;
         }
         let above = coats.last().map_or(1.0, |coat| coat.n);
-        coats.push(Coat::new(&layer, above, common.lambda).map_err(|error| error.inside(name))?);
+        coats.push(
+            CoatLayer::new(&layer, above, common.lambda).map_err(|error| error.inside(name))?,
+        );
     }
     let below = node.child("model");
     check_same(below, common)?;
@@ -197,11 +211,12 @@ fn add_coats(node: &Node, common: &Common, coats: &mut Vec<Coat>) -> Result<Node
 }
 
 /// The model below sees the light of the layered model, and its substrate is that of the whole.
-fn check_same(below: &Node, common: &Common) -> Result<(), ParamError> {
-    let Common { lambda, substrate, side } = Common::read(below).map_err(|e| e.inside("model"))?;
+fn check_same(below: &ParameterNode, common: &CommonParameters) -> Result<(), ParameterError> {
+    let CommonParameters { lambda, substrate, side } =
+        CommonParameters::read(below).map_err(|e| e.inside("model"))?;
     let differs = |parameter: &str, own: String, whole: String| {
         let problem = format!("{own} is not {whole}, that of the model around it");
-        Err(ParamError::new(&format!("model.{parameter}"), problem))
+        Err(ParameterError::new(&format!("model.{parameter}"), problem))
     };
     if lambda != common.lambda {
         return differs("lambda", format!("{lambda} um"), format!("{} um", common.lambda));
@@ -217,61 +232,77 @@ fn check_same(below: &Node, common: &Common) -> Result<(), ParamError> {
 
 /// The reflectance of the model `below` if it is a diffuse body; its own interface becomes a coat.
 fn diffuse_body(
-    below: &Node,
-    common: &Common,
-    coats: &mut Vec<Coat>,
-) -> Result<Option<f64>, ParamError> {
+    below: &ParameterNode,
+    common: &CommonParameters,
+    coats: &mut Vec<CoatLayer>,
+) -> Result<Option<f64>, ParameterError> {
     let name = below.class.name;
     let under_interface = name == diffuse::diffuse_subsurface::SPEC.class.name;
     if !under_interface && name != diffuse::lambertian::SPEC.class.name {
         return Ok(None);
     }
-    let inside = |error: ParamError| error.inside("model");
+    let inside = |error: ParameterError| error.inside("model");
     if under_interface {
         let above = coats.last().map_or(1.0, |coat| coat.n);
         let films = below.member::<Stack>("stack").map_err(inside)?.at(common.lambda);
         let n = common.substrate.re;
         if !(n >= 1.0 && n.is_finite()) {
             let problem = format!("an index of {n} is below that of the air");
-            return Err(ParamError::new("substrate", problem));
+            return Err(ParameterError::new("substrate", problem));
         }
         let interface = Interface::new((above, n), &films, common.lambda, None)?;
-        coats.push(Coat { interface, n, depth: 0.0 });
+        coats.push(CoatLayer { interface, n, depth: 0.0 });
     }
     let reflectance = reflectance::read(below, "reflectance", common.lambda);
     reflectance.map(Some).map_err(inside)
 }
 
-impl Coat {
-    fn new(layer: &Layer, above: f64, lambda: f64) -> Result<Self, ParamError> {
+impl CoatLayer {
+    fn new(layer: &CoatingLayer, above: f64, lambda: f64) -> Result<Self, ParameterError> {
         let Complex64 { re: n, im: k } = layer.material.at(lambda);
         if !(n >= 1.0 && n.is_finite() && k >= 0.0 && k.is_finite()) {
             let problem = format!("{n} + {k}i: n has to be at least 1, k at least 0");
-            return Err(ParamError::new("material", problem));
+            return Err(ParameterError::new("material", problem));
         }
         let node = &layer.node;
         let films = node.member::<Stack>("stack")?.at(lambda);
         let smooth = node.child("sdf").class.name == slope::unit::SPEC.class.name;
-        let roughness = (!smooth)
-            .then(|| Roughness { slopes: node.child("sdf"), shadow: node.child("shadow") });
+        let roughness = (!smooth).then(|| RoughnessParameters {
+            slopes: node.child("sdf"),
+            shadow: node.child("shadow"),
+        });
         let interface = Interface::new((above, n), &films, lambda, roughness)?;
         Ok(Self { interface, n, depth: 4.0 * PI * k * layer.thickness / lambda })
     }
 
     /// What is left of light after one passage at an angle with this cosine.
-    pub(super) fn left(&self, cos: f64, media: Media) -> f64 {
-        if self.depth == 0.0 || media == Media::Clear { 1.0 } else { (-self.depth / cos).exp() }
+    pub(super) fn left(&self, cos: f64, media: Absorption) -> f64 {
+        if self.depth == 0.0 || media == Absorption::Clear {
+            1.0
+        } else {
+            (-self.depth / cos).exp()
+        }
     }
 
     /// The layers down to this one for the ray `ray` above it, whose angle in it has the cosine
     /// `cos`; `sin` is that of the ray above.
-    pub(super) fn add(&self, above: Above, ray: &Ray, cos: f64, media: Media) -> Above {
+    pub(super) fn add(
+        &self,
+        above: LayersAbove,
+        ray: &InterfaceRay,
+        cos: f64,
+        media: Absorption,
+    ) -> LayersAbove {
         let crossing = self.interface.crossing(ray).kept;
         let absorbed = self.left(cos, media);
         if self.interface.is_rough() {
             // What it reflects goes into other directions.
             let passes = above.passes.then(crossing).scaled(absorbed);
-            return Above { passes, returns: Passage::NONE, mirrored: above.mirrored };
+            return LayersAbove {
+                passes,
+                returns: TransmissionFactors::NONE,
+                mirrored: above.mirrored,
+            };
         }
         let reflected = self.interface.reflects_above(ray.sin);
         let trips = above.returns.then(reflected).repeated();
@@ -280,12 +311,17 @@ impl Coat {
         let mirrored = above.mirrored.plus(out);
         let through = crossing.then(crossing).then(above.returns).then(trips);
         let returns = self.interface.reflects_below(ray.sin).plus(through);
-        Above { passes, returns: returns.scaled(absorbed * absorbed), mirrored }
+        LayersAbove { passes, returns: returns.scaled(absorbed * absorbed), mirrored }
     }
 
     /// The part of light with the tangential index `kappa` that all layers down to this one send
     /// back, once it has crossed this one twice, of diffuse light from below.
-    fn recycled(&self, above: (f64, Passage), kappa: f64, media: Media) -> Passage {
+    fn recycled(
+        &self,
+        above: (f64, TransmissionFactors),
+        kappa: f64,
+        media: Absorption,
+    ) -> TransmissionFactors {
         let (n_above, returns) = above;
         let sin = kappa / n_above;
         let cos = (1.0 - (kappa / self.n).powi(2)).max(0.0).sqrt();
@@ -297,7 +333,7 @@ impl Coat {
         let crossing = self.interface.mean_passage(sin);
         let back = self.interface.mean_sent_back(sin);
         let trips = if self.interface.is_rough() {
-            Passage::FREE
+            TransmissionFactors::FREE
         } else {
             returns.then(self.interface.reflects_above(sin)).repeated()
         };
@@ -306,7 +342,7 @@ impl Coat {
 }
 
 /// ρ: the part of diffuse light from below all coats that comes back.
-fn recycled(coats: &[Coat], lambda: f64, media: Media) -> f64 {
+fn recycled(coats: &[CoatLayer], lambda: f64, media: Absorption) -> f64 {
     let Some(last) = coats.last() else { return 0.0 };
     // The integrand has kinks where light begins to be reflected totally.
     let mut ends = vec![0.0, 1.0, last.n];
@@ -324,7 +360,7 @@ fn recycled(coats: &[Coat], lambda: f64, media: Media) -> f64 {
         sum += span
             * gauss::integrate(nodes, 0.0, FRAC_PI_2, |t| {
                 let kappa = (from + span * t.sin().powi(2)).sqrt();
-                let mut above = (1.0, Passage::NONE);
+                let mut above = (1.0, TransmissionFactors::NONE);
                 for coat in coats {
                     above = (coat.n, coat.recycled(above, kappa, media));
                 }
@@ -334,15 +370,15 @@ fn recycled(coats: &[Coat], lambda: f64, media: Media) -> f64 {
     sum / (last.n * last.n)
 }
 
-impl Brdf for Layered {
-    fn common(&self) -> &Common {
+impl Brdf for LayeredModel {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
         let (mut ray_i, mut ray_s) =
-            (Ray::incident(incidence), Ray::reversed(incidence, direction));
-        let (mut above_i, mut above_s) = (Above::NOTHING, Above::NOTHING);
+            (InterfaceRay::incident(incidence), InterfaceRay::reversed(incidence, direction));
+        let (mut above_i, mut above_s) = (LayersAbove::NOTHING, LayersAbove::NOTHING);
         let mut n = 1.0;
         let mut sum = Mueller::ZERO;
         for coat in &self.coats {
@@ -351,15 +387,18 @@ impl Brdf for Layered {
                 sum += behind((above_s.passes, above_i.passes), seen, n * n);
             }
             let (below_i, below_s) = (ray_i.below(coat.interface.n), ray_s.below(coat.interface.n));
-            above_i = coat.add(above_i, &ray_i, below_i.cos, Media::Lossy);
-            above_s = coat.add(above_s, &ray_s, below_s.cos, Media::Lossy);
+            above_i = coat.add(above_i, &ray_i, below_i.cos, Absorption::Lossy);
+            above_s = coat.add(above_s, &ray_s, below_s.cos, Absorption::Lossy);
             (ray_i, ray_s, n) = (below_i, below_s, coat.n);
         }
         match &self.bottom {
-            Bottom::Diffuse { strength, closing } => {
+            LowestSurface::Diffuse { strength, closing } => {
                 let mut rows = [above_s.passes.row(), above_i.passes.row()];
                 if let Some(closing) = closing {
-                    let outside = [Ray::reversed(incidence, direction), Ray::incident(incidence)];
+                    let outside = [
+                        InterfaceRay::reversed(incidence, direction),
+                        InterfaceRay::incident(incidence),
+                    ];
                     for (row, ray) in rows.iter_mut().zip(outside) {
                         closing.add(row, &self.coats, ray);
                     }
@@ -367,7 +406,7 @@ impl Brdf for Layered {
                 let [leaving, entering] = rows;
                 sum += depolarized(strength / (n * n), leaving, entering);
             }
-            Bottom::Immersed(model) => {
+            LowestSurface::Immersed(model) => {
                 let mut inner = [Mueller::ZERO];
                 let to = ray_s.direction(direction);
                 model.evaluate(&ray_i.incidence(incidence), &[to], Basis::Psps, &mut inner);

@@ -7,11 +7,11 @@
 
 use num_complex::Complex64;
 
-use crate::{Mueller, optics::film::Pair};
+use crate::{Mueller, optics::film::SpAmplitudes};
 
 /// The factors of s and p light and of their coherence.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Passage {
+pub(super) struct TransmissionFactors {
     /// Intensity of s.
     pub(super) s: f64,
     /// Intensity of p.
@@ -20,14 +20,14 @@ pub(super) struct Passage {
     pub(super) c: Complex64,
 }
 
-impl Passage {
+impl TransmissionFactors {
     /// Nothing happens.
     pub(super) const FREE: Self = Self { s: 1.0, p: 1.0, c: Complex64::ONE };
     /// No light passes.
     pub(super) const NONE: Self = Self { s: 0.0, p: 0.0, c: Complex64::ZERO };
 
     /// The passage with the amplitudes `t`, times `factor`.
-    pub(super) fn of(t: Pair, factor: f64) -> Self {
+    pub(super) fn of(t: SpAmplitudes, factor: f64) -> Self {
         Self {
             s: factor * t.s.norm_sqr(),
             p: factor * t.p.norm_sqr(),
@@ -100,14 +100,14 @@ pub(super) fn depolarized(strength: f64, leaving: [f64; 4], entering: [f64; 4]) 
 mod tests {
     use super::*;
 
-    fn passage() -> Passage {
-        let t = Pair { s: Complex64::new(0.5, 0.2), p: Complex64::new(-0.1, 0.7) };
-        Passage::of(t, 1.3)
+    fn passage() -> TransmissionFactors {
+        let t = SpAmplitudes { s: Complex64::new(0.5, 0.2), p: Complex64::new(-0.1, 0.7) };
+        TransmissionFactors::of(t, 1.3)
     }
 
     #[test]
     fn a_passage_is_the_matrix_of_its_amplitudes() {
-        let t = Pair { s: Complex64::new(0.5, 0.2), p: Complex64::new(-0.1, 0.7) };
+        let t = SpAmplitudes { s: Complex64::new(0.5, 0.2), p: Complex64::new(-0.1, 0.7) };
         let difference = passage().matrix() - t.jones().mueller() * 1.3;
         assert!(difference.largest() < 1e-15);
     }

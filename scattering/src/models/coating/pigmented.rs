@@ -23,7 +23,7 @@
 //! the facets return; times B. T has the same intensities of s and p. ρ = ⟨wB²⟩, w what the surface
 //! sends back of light from below; without absorption B is 1 and ρ = 1 − ∫t₀ sin 2θ dθ/n². Then surface and
 //! body return exactly all light if the body is white. c is what of t passes the flakes, l what
-//! they reflect and the surface sends back to them; [`Exchange`] has G. `exchange` = 0 leaves l
+//! they reflect and the surface sends back to them; [`InterreflectionMatrix`] has G. `exchange` = 0 leaves l
 //! out: flakes are then seen as those of `Shadowed_Subsurface_Facet_BRDF_Model`. With `exchange`
 //! = 1 and c = 1, transparent flakes that do not absorb over a white body return all light too.
 //! Because flakes reflect and transmit at most 1 together, the whole is at most ω_s + ω_d ≤ 1 of
@@ -53,20 +53,22 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 
 use super::{
     body::{self, nonnegative},
-    doubling::Slab,
-    exchange::{Exchange, Means},
+    doubling::DiffuseSlab,
+    exchange::{DiffuseMeans, InterreflectionMatrix},
     flakes::Flakes,
-    interface::{Crossing, Interface, Ray, Roughness, behind, realizable},
+    interface::{
+        Interface, InterfaceRay, InterfaceTransmission, RoughnessParameters, behind, realizable,
+    },
     passage::depolarized,
 };
 use crate::{
-    Direction, Incidence, Limit, Mueller, Node, ParamError,
+    Direction, Incidence, ModelLimit, Mueller, ParameterError, ParameterNode,
     models::{
-        Brdf, COMMON, Common,
+        Brdf, COMMON, CommonParameters,
         facet::{FACET, subsurface::OVERCOAT},
     },
     slope::SlopeDistribution,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
     special::gauss,
     stack::Stack,
 };
@@ -82,71 +84,71 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         params: &[COMMON, FACET, OVERCOAT, OWN],
         laws: Laws::ALL,
     },
-    build: |node| Ok(Box::new(Pigmented::read(node)?)),
+    build: |node| Ok(Box::new(PigmentedCoating::read(node)?)),
 };
 
-const OWN: &[Param] = &[
-    Param::member(
+const OWN: &[Parameter] = &[
+    Parameter::member(
         "surface_sdf",
         Family::Slope,
         "Slope_Distribution_Function",
         "Anisotropic_Gaussian_Slope_Distribution_Function",
         "Density of the slopes of the coat's surface",
     ),
-    Param::member(
+    Parameter::member(
         "surface_shadow",
         Family::Shadow,
         "Shadow_Function",
         "Sancer_Shadow_Function",
         "Shadowing of the coat's surface",
     ),
-    Param::number("flake_density", "0.0001", "1/um^3", "Flakes per volume"),
-    Param::number("flake_area", "300", "um^2", "Area of a flake"),
-    Param::number("thickness", "30", "um", "Thickness of the coat"),
-    Param::number(
+    Parameter::number("flake_density", "0.0001", "1/um^3", "Flakes per volume"),
+    Parameter::number("flake_area", "300", "um^2", "Area of a flake"),
+    Parameter::number("thickness", "30", "um", "Thickness of the coat"),
+    Parameter::number(
         "correlation",
         "1",
         "1",
         "Probability that light leaves by the gap by which it entered, 0 to 1",
     ),
-    Param::member(
+    Parameter::member(
         "particle",
         Family::Scatterer,
         "Free_Space_Scatterer",
         "MieScatterer",
         "Particle of the body; its lambda, medium and radius are set by the coating",
     ),
-    Param::number("particle_radius", "0.1", "um", "Radius of the particles"),
-    Param::number("particle_density", "0", "1/um^3", "Particles per volume"),
-    Param::member(
+    Parameter::number("particle_radius", "0.1", "um", "Radius of the particles"),
+    Parameter::number("particle_density", "0", "1/um^3", "Particles per volume"),
+    Parameter::member(
         "backing",
         Family::Reflectance,
         "Reflectance",
         "Table_Reflectance",
         "Reflectance of what lies below the coat, for diffuse light inside it",
     ),
-    Param::integer(
+    Parameter::integer(
         "printed",
         "0",
         "0 consistent; 1 the body as in the paper's equation 9; 2 the flakes' weight of equation 11 too",
     ),
-    Param::member(
+    Parameter::member(
         "flake_shadow",
         Family::Shadow,
         "Shadow_Function",
         "Sancer_Shadow_Function",
         "Shadowing of flakes by each other, at the angles inside the coat",
     ),
-    Param::number(
+    Parameter::number(
         "flake_spread",
         "0",
         "1",
         "Relative standard deviation of the thickness of the flakes' films, below 1/3",
     ),
-    Param::integer("albedo", "0", "Albedo of the body: 0 adding and doubling, 1 Kubelka-Munk"),
-    Param::integer("exchange", "0", "Light between flakes and surface: 0 left out, 1 taken in"),
-    Param::integer("printed_surface", "0", "1: the surface as in the paper's equations 4 to 6"),
-    Param::integer("printed_flakes", "0", "1: the flakes as in the paper's equation 8"),
+    Parameter::integer("albedo", "0", "Albedo of the body: 0 adding and doubling, 1 Kubelka-Munk"),
+    Parameter::integer("exchange", "0", "Light between flakes and surface: 0 left out, 1 taken in"),
+    Parameter::integer("printed_surface", "0", "1: the surface as in the paper's equations 4 to 6"),
+    Parameter::integer("printed_flakes", "0", "1: the flakes as in the paper's equation 8"),
 ];
 
 /// Spheres that fill more of the volume do not scatter independently: they are closer than about
@@ -160,31 +162,31 @@ const LOST: f64 = 0.05;
 const NODES: usize = 96;
 
 /// A pigmented coating.
-struct Pigmented {
-    common: Common,
+struct PigmentedCoating {
+    common: CommonParameters,
     n: f64,
     surface: Interface,
     flakes: Flakes,
-    cover: Cover,
-    slab: Slab,
+    cover: FlakeCover,
+    slab: DiffuseSlab,
     /// Strength of the body seen through gaps.
     gaps: f64,
     /// Strengths of what goes by flakes other than by one reflection.
-    through: Exchange,
+    through: InterreflectionMatrix,
     /// Whether light between flakes and surface is taken in.
     exchange: bool,
-    printed: Printed,
+    printed: PublishedForm,
 }
 
 /// What is taken as the paper prints it.
-struct Printed {
+struct PublishedForm {
     body: bool,
     surface: bool,
     flakes: bool,
 }
 
 /// How flakes and binder divide the light.
-struct Cover {
+struct FlakeCover {
     /// τ.
     depth: f64,
     /// 2 − c.
@@ -195,15 +197,20 @@ struct Cover {
     printed: bool,
 }
 
-impl Cover {
-    fn read(node: &Node, lambda: f64, k: f64, printed: bool) -> Result<Self, ParamError> {
+impl FlakeCover {
+    fn read(
+        node: &ParameterNode,
+        lambda: f64,
+        k: f64,
+        printed: bool,
+    ) -> Result<Self, ParameterError> {
         let thickness = nonnegative(node, "thickness")?;
         let depth =
             nonnegative(node, "flake_density")? * nonnegative(node, "flake_area")? * thickness;
         let correlation = node.number("correlation");
         if !(0.0..=1.0).contains(&correlation) {
             let problem = format!("{correlation} is not from 0 to 1");
-            return Err(ParamError::new("correlation", problem));
+            return Err(ParameterError::new("correlation", problem));
         }
         let binder = 4.0 * PI * k * thickness / lambda;
         Ok(Self { depth, passes: 2.0 - correlation, binder, printed })
@@ -243,34 +250,36 @@ impl Cover {
     }
 }
 
-impl Pigmented {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+impl PigmentedCoating {
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         common.only_reflection(SPEC.class.name)?;
         let binder = node.index("overcoat").at(common.lambda);
         if !(binder.re > 0.0 && binder.re.is_finite() && binder.im >= 0.0) {
-            return Err(ParamError::new("overcoat", format!("{binder} is not an index")));
+            return Err(ParameterError::new("overcoat", format!("{binder} is not an index")));
         }
         let films = node.member::<Stack>("overcoat_films")?.at(common.lambda);
-        let roughness =
-            Roughness { slopes: node.child("surface_sdf"), shadow: node.child("surface_shadow") };
+        let roughness = RoughnessParameters {
+            slopes: node.child("surface_sdf"),
+            shadow: node.child("surface_shadow"),
+        };
         let surface = Interface::new((1.0, binder.re), &films, common.lambda, Some(roughness))
             .map_err(rename)?;
         let printed = node.integer("printed");
         if !(0..=2).contains(&printed) {
-            return Err(ParamError::new("printed", format!("{printed} is not 0, 1 or 2")));
+            return Err(ParameterError::new("printed", format!("{printed} is not 0, 1 or 2")));
         }
         let mut coating = Self {
             common,
             n: binder.re,
             surface,
             flakes: Flakes::read(node, &common, binder)?,
-            cover: Cover::read(node, common.lambda, binder.im, printed == 2)?,
-            slab: Slab::uniform(0.0),
+            cover: FlakeCover::read(node, common.lambda, binder.im, printed == 2)?,
+            slab: DiffuseSlab::uniform(0.0),
             gaps: 0.0,
-            through: Exchange::default(),
+            through: InterreflectionMatrix::default(),
             exchange: switch(node, "exchange")?,
-            printed: Printed {
+            printed: PublishedForm {
                 body: printed > 0,
                 surface: switch(node, "printed_surface")?,
                 flakes: switch(node, "printed_flakes")?,
@@ -282,7 +291,7 @@ impl Pigmented {
     }
 
     /// What is the same for all directions.
-    fn fill(&mut self, node: &Node) -> Result<(), ParamError> {
+    fn fill(&mut self, node: &ParameterNode) -> Result<(), ParameterError> {
         self.slab = body::read(node, self.common.lambda, self.n)?;
         let alpha = self.slab.reflectance;
         if self.printed.body {
@@ -290,7 +299,7 @@ impl Pigmented {
             return Ok(());
         }
         let n2 = self.n * self.n;
-        let shape = |ray: &Ray| self.slab.shape(ray.cos);
+        let shape = |ray: &InterfaceRay| self.slab.shape(ray.cos);
         let escaping = self.escaping(|ray| {
             self.surface.mean_passage(ray.sin).row()[0] * shape(&ray.below(self.n))
         });
@@ -305,46 +314,48 @@ impl Pigmented {
         if seen {
             let Self { flakes, surface, cover, .. } = self;
             let level = cover.level();
-            let lid = |up: &Ray| surface.sends_back(up).scaled(cover.left(2.0 * level, up.cos));
+            let lid =
+                |up: &InterfaceRay| surface.sends_back(up).scaled(cover.left(2.0 * level, up.cos));
             flakes.tabulate(node, &lid, 1.0 / self.n)?;
-            let Exchange { ll, lc, cc } = Exchange::new(&self.means(), alpha);
+            let InterreflectionMatrix { ll, lc, cc } =
+                InterreflectionMatrix::new(&self.means(), alpha);
             let part = |x: f64| x * weight * FRAC_1_PI / n2;
-            self.through = Exchange { ll: part(ll), lc: part(lc), cc: part(cc) };
+            self.through = InterreflectionMatrix { ll: part(ll), lc: part(lc), cc: part(cc) };
         }
         Ok(())
     }
 
     /// The means over diffuse light at flakes.
-    fn means(&self) -> Means {
+    fn means(&self) -> DiffuseMeans {
         let level = self.cover.level();
-        let lid = |ray: &Ray| {
+        let lid = |ray: &InterfaceRay| {
             let back = self.surface.mean_sent_back(ray.sin * self.n);
             back.scaled(self.cover.left(2.0 * level, ray.cos))
         };
         // Ways between flakes and body, once or down and up again.
-        let below = |ray: &Ray, ways: i32| {
+        let below = |ray: &InterfaceRay, ways: i32| {
             let left = self.cover.left(f64::from(ways) * (1.0 - level), ray.cos);
             left * self.slab.shape(ray.cos).powi(ways)
         };
         let both = |(s, p): (f64, f64)| 0.5 * (s + p);
         let with = |a: (f64, f64), b: (f64, f64)| 0.5 * (a.0 * b.0 + a.1 * b.1);
-        let pair = |ray: &Ray| (lid(ray).s, lid(ray).p);
-        let fates = |ray: &Ray| self.flakes.fates(ray.sin);
-        let crossing = |ray: &Ray, of: &dyn Fn(&Ray) -> (f64, f64)| {
+        let pair = |ray: &InterfaceRay| (lid(ray).s, lid(ray).p);
+        let fates = |ray: &InterfaceRay| self.flakes.fates(ray.sin);
+        let crossing = |ray: &InterfaceRay, of: &dyn Fn(&InterfaceRay) -> (f64, f64)| {
             let (through, inside) = (self.surface.mean_passage(ray.sin), ray.below(self.n));
             with((through.s, through.p), of(&inside))
         };
-        let caught = |ray: &Ray| {
+        let caught = |ray: &InterfaceRay| {
             let (s, p) = fates(ray).caught;
             let left = self.cover.left(level, ray.cos);
             (s * left, p * left)
         };
-        let passed = |ray: &Ray| {
+        let passed = |ray: &InterfaceRay| {
             let (s, p) = fates(ray).passed;
             let left = self.cover.left(1.0, ray.cos) * self.slab.shape(ray.cos);
             (s * left, p * left)
         };
-        Means {
+        DiffuseMeans {
             lid: self.inside(|ray| both(pair(ray))),
             caught_again: self.inside(|ray| with(pair(ray), fates(ray).caught)),
             passed_down: self.inside(|ray| with(pair(ray), fates(ray).passed) * below(ray, 1)),
@@ -357,34 +368,36 @@ impl Pigmented {
     }
 
     /// What the surface sends back of an unpolarized ray inside, the mean over azimuths.
-    fn lid(&self, inside: &Ray) -> f64 {
+    fn lid(&self, inside: &InterfaceRay) -> f64 {
         self.surface.mean_sent_back(inside.sin * self.n).row()[0]
     }
 
     /// The mean ∫f sin 2θ dθ over diffuse light outside, over n²: what of diffuse light inside
     /// gets out where f passes from outside.
-    fn escaping(&self, f: impl Fn(&Ray) -> f64) -> f64 {
+    fn escaping(&self, f: impl Fn(&InterfaceRay) -> f64) -> f64 {
         let n2 = self.n * self.n;
-        gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| f(&Ray::mean(t.sin())) * (2.0 * t).sin()) / n2
+        gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
+            f(&InterfaceRay::mean(t.sin())) * (2.0 * t).sin()
+        }) / n2
     }
 
     /// The mean over diffuse light inside.
-    fn inside(&self, f: impl Fn(&Ray) -> f64) -> f64 {
+    fn inside(&self, f: impl Fn(&InterfaceRay) -> f64) -> f64 {
         let n2 = self.n * self.n;
         let kink = n2.min(1.0);
         let piece = |from: f64, to: f64| {
             gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
                 let sin2 = (from + (to - from) * t.sin().powi(2)) / n2;
-                f(&Ray::mean(sin2.sqrt().min(1.0))) * (2.0 * t).sin()
+                f(&InterfaceRay::mean(sin2.sqrt().min(1.0))) * (2.0 * t).sin()
             }) * (to - from)
                 / n2
         };
         piece(0.0, kink) + if n2 > kink { piece(kink, n2) } else { 0.0 }
     }
 
-    fn note_limits(&self, node: &Node) -> Result<(), ParamError> {
+    fn note_limits(&self, node: &ParameterNode) -> Result<(), ParameterError> {
         if body::filled(node) > INDEPENDENT {
-            node.passes(Limit::ParticlesTooDense);
+            node.passes(ModelLimit::ParticlesTooDense);
         }
         let side = node.number("flake_area").sqrt();
         let slopes = node.member::<dyn SlopeDistribution>("sdf")?;
@@ -393,20 +406,20 @@ impl Pigmented {
         let thickness: f64 = films.iter().map(|(_, t)| t).sum();
         let room = node.number("flake_density") * side * side * (thickness + tilt * side);
         if room > 1.0 {
-            node.passes(Limit::FlakesTooDense);
+            node.passes(ModelLimit::FlakesTooDense);
         }
         if 1.0 - self.cover.gaps() - self.cover.covered() > LOST {
-            node.passes(Limit::LostBetweenFlakes);
+            node.passes(ModelLimit::LostBetweenFlakes);
         }
         Ok(())
     }
 
-    fn body(&self, out: &Side, into: &Side) -> Mueller {
+    fn body(&self, out: &SurfaceRay, into: &SurfaceRay) -> Mueller {
         if self.printed.body {
-            let row = |side: &Side| self.surface.smooth_passage(side.outside.sin).row();
+            let row = |side: &SurfaceRay| self.surface.smooth_passage(side.outside.sin).row();
             return depolarized(self.gaps, row(out), row(into));
         }
-        let row = |side: &Side| {
+        let row = |side: &SurfaceRay| {
             let left = self.to_body(&side.inside);
             side.crossing.row.map(|x| x * left)
         };
@@ -414,12 +427,12 @@ impl Pigmented {
     }
 
     /// What of a ray reaches the body, times its share of what a beam at this angle gets back.
-    fn to_body(&self, inside: &Ray) -> f64 {
+    fn to_body(&self, inside: &InterfaceRay) -> f64 {
         self.cover.left(1.0, inside.cos) * self.slab.shape(inside.cos)
     }
 
     /// The rows l and c of a ray.
-    fn spaces(&self, side: &Side) -> ([f64; 4], [f64; 4]) {
+    fn spaces(&self, side: &SurfaceRay) -> ([f64; 4], [f64; 4]) {
         let (returned, caught) = self.flakes.rows(&side.inside);
         let kept = &side.crossing.kept;
         let level = self.cover.left(self.cover.level(), side.inside.cos);
@@ -436,9 +449,9 @@ impl Pigmented {
     }
 
     /// Light that went by flakes other than by one reflection.
-    fn through(&self, out: &Side, into: &Side) -> Mueller {
+    fn through(&self, out: &SurfaceRay, into: &SurfaceRay) -> Mueller {
         let ((l_s, c_s), (l_i, c_i)) = (self.spaces(out), self.spaces(into));
-        let Exchange { ll, lc, cc } = self.through;
+        let InterreflectionMatrix { ll, lc, cc } = self.through;
         let mut sum = depolarized(cc, c_s, c_i);
         if self.exchange {
             sum += depolarized(ll, l_s, l_i);
@@ -451,8 +464,8 @@ impl Pigmented {
     /// One reflection by flakes.
     fn by_flakes(
         &self,
-        (into, incidence): (&Side, &Incidence),
-        (out, direction): (&Side, &Direction),
+        (into, incidence): (&SurfaceRay, &Incidence),
+        (out, direction): (&SurfaceRay, &Direction),
     ) -> Mueller {
         let weight = self.cover.flakes(into.inside.cos, out.inside.cos);
         if weight == 0.0 {
@@ -470,10 +483,10 @@ impl Pigmented {
 }
 
 /// A ray, outside and inside, and what of it crosses the surface.
-struct Side {
-    outside: Ray,
-    inside: Ray,
-    crossing: Crossing,
+struct SurfaceRay {
+    outside: InterfaceRay,
+    inside: InterfaceRay,
+    crossing: InterfaceTransmission,
 }
 
 /// The Mueller matrix of the transposed Jones matrix.
@@ -490,34 +503,36 @@ fn printed_jacobian(at: &Incidence, to: &Direction) -> f64 {
 }
 
 /// The parameter `name`, 0 or 1.
-fn switch(node: &Node, name: &str) -> Result<bool, ParamError> {
+fn switch(node: &ParameterNode, name: &str) -> Result<bool, ParameterError> {
     match node.integer(name) {
         0 => Ok(false),
         1 => Ok(true),
-        other => Err(ParamError::new(name, format!("{other} is not 0 or 1"))),
+        other => Err(ParameterError::new(name, format!("{other} is not 0 or 1"))),
     }
 }
 
 /// The names that the facets of the surface have in the coating.
-fn rename(error: ParamError) -> ParamError {
+fn rename(error: ParameterError) -> ParameterError {
     let own = ["sdf", "shadow"].iter().any(|name| error.parameter.starts_with(name));
     let parameter = if own { format!("surface_{}", error.parameter) } else { error.parameter };
-    ParamError { parameter, problem: error.problem }
+    ParameterError { parameter, problem: error.problem }
 }
 
-impl Brdf for Pigmented {
-    fn common(&self) -> &Common {
+impl Brdf for PigmentedCoating {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
-        let side = |outside: Ray| Side {
+        let side = |outside: InterfaceRay| SurfaceRay {
             outside,
             inside: outside.below(self.n),
             crossing: self.surface.crossing(&outside),
         };
-        let (into, out) =
-            (side(Ray::incident(incidence)), side(Ray::reversed(incidence, direction)));
+        let (into, out) = (
+            side(InterfaceRay::incident(incidence)),
+            side(InterfaceRay::reversed(incidence, direction)),
+        );
         let mut sum = self.body(&out, &into);
         if let Some(facets) = self.surface.facets() {
             let seen = facets.mueller(incidence, direction);
@@ -525,7 +540,7 @@ impl Brdf for Pigmented {
         }
         if self.cover.depth > 0.0 || self.cover.printed {
             sum += self.by_flakes((&into, incidence), (&out, direction));
-            if self.through != Exchange::default() {
+            if self.through != InterreflectionMatrix::default() {
                 sum += self.through(&out, &into);
             }
         }

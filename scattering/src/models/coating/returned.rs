@@ -38,26 +38,26 @@ const GRAZING: f64 = FRAC_PI_2 - 1e-4;
 
 /// The rows of one surface.
 #[derive(Clone, Debug)]
-pub(super) struct Returned {
+pub(super) struct DirectionalAlbedo {
     /// For every node the coefficients of 1, cos 2r, sin 2r, cos 4r, …
     nodes: Vec<Vec<[f64; 4]>>,
 }
 
-impl Returned {
+impl DirectionalAlbedo {
     /// The integrals of `rows`, first rows of BRDFs of facets with these slopes, less `smooth`, what
     /// they are for a smooth surface (a function of the sine of incidence).
     ///
     /// `edge` is the sine of the exit at which rows bend, as where total reflection begins.
     ///
-    /// Of each the intensity is taken too large ([`Safe::Large`]) or too small by more than the
+    /// Of each the intensity is taken too large ([`ErrorSign::Large`]) or too small by more than the
     /// error of the table.
     pub(super) fn tabulate<const N: usize>(
         slopes: &dyn SlopeDistribution,
-        rows: &Rows<'_, N>,
+        rows: &FacetRows<'_, N>,
         smooth: &dyn Fn(f64) -> [[f64; 4]; N],
-        (edge, safe): (Option<f64>, [Safe; N]),
+        (edge, safe): (Option<f64>, [ErrorSign; N]),
     ) -> [Self; N] {
-        let rule = Rule::new(slopes, edge);
+        let rule = SlopeQuadrature::new(slopes, edge);
         let isotropic = rule.is_isotropic(rows);
         let rotations = if isotropic { 1 } else { ROTATIONS };
         let node = |j: usize| -> [Vec<[f64; 4]>; N] {
@@ -124,18 +124,19 @@ impl Returned {
 }
 
 /// First rows of BRDFs of facets.
-pub(super) type Rows<'a, const N: usize> = dyn Fn(&Incidence, &Direction) -> [[f64; 4]; N] + 'a;
+pub(super) type FacetRows<'a, const N: usize> =
+    dyn Fn(&Incidence, &Direction) -> [[f64; 4]; N] + 'a;
 
 /// On which side of the truth the error of a table has to be.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Safe {
+pub(super) enum ErrorSign {
     /// What passes is the rest of it.
     Large,
     /// It is added to what is there.
     Small,
 }
 
-impl Safe {
+impl ErrorSign {
     fn factor(self) -> f64 {
         match self {
             Self::Large => 1.0 + MARGIN,
@@ -183,7 +184,7 @@ fn deviations(slopes: &dyn SlopeDistribution) -> (f64, f64) {
 }
 
 /// Nodes of the integral over slopes.
-struct Rule {
+struct SlopeQuadrature {
     deviations: (f64, f64),
     /// End of the integral in standard deviations.
     reach: f64,
@@ -192,7 +193,7 @@ struct Rule {
     edge: Option<f64>,
 }
 
-impl Rule {
+impl SlopeQuadrature {
     fn new(slopes: &dyn SlopeDistribution, edge: Option<f64>) -> Self {
         let deviations = deviations(slopes);
         let negligible = NEGLIGIBLE * slopes.density(0.0, 0.0);
@@ -205,7 +206,7 @@ impl Rule {
     }
 
     /// Whether the rows do not depend on the rotation of the sample.
-    fn is_isotropic<const N: usize>(&self, rows: &Rows<'_, N>) -> bool {
+    fn is_isotropic<const N: usize>(&self, rows: &FacetRows<'_, N>) -> bool {
         let s = self.deviations.0.min(self.deviations.1);
         // Rows may vanish at the greater angle, where nothing gets out.
         [(0.3, 0.5, 0.2), (0.9, -0.7, 1.1)].into_iter().all(|(theta, x, y)| {
@@ -226,7 +227,7 @@ impl Rule {
     fn integrate<const N: usize>(
         &self,
         at: &Incidence,
-        rows: &Rows<'_, N>,
+        rows: &FacetRows<'_, N>,
         mirrored: bool,
     ) -> [[f64; 4]; N] {
         let mut sum = [[0.0; 4]; N];
@@ -267,7 +268,7 @@ impl Rule {
     }
 }
 
-impl Rule {
+impl SlopeQuadrature {
     /// The parts of a ray of slopes up to `top` between which the exit crosses the edge.
     fn pieces(&self, at: &Incidence, ray: (f64, f64), top: f64) -> Vec<(f64, f64)> {
         let Some(edge) = self.edge else { return vec![(0.0, top)] };

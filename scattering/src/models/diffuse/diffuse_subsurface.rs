@@ -19,8 +19,8 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use super::{INTERFACE, interface, lambertian::BODY};
 use crate::{
-    Defect, Direction, Incidence, Mueller, Node, ParamError,
-    models::{Brdf, COMMON, Common},
+    Defect, Direction, Incidence, Mueller, ParameterError, ParameterNode,
+    models::{Brdf, COMMON, CommonParameters},
     optics::film::Films,
     reflectance,
     spec::{Class, Laws, Spec},
@@ -44,7 +44,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 /// A diffuse body under a smooth interface.
 #[derive(Clone, Debug)]
 pub struct DiffuseSubsurface {
-    common: Common,
+    common: CommonParameters,
     films: Films,
     /// n².
     n2: f64,
@@ -53,8 +53,8 @@ pub struct DiffuseSubsurface {
 }
 
 impl DiffuseSubsurface {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         common.only_reflection(SPEC.class.name)?;
         let n = common.substrate.re;
         let films = interface(node, &common, n.into())?;
@@ -81,7 +81,7 @@ impl DiffuseSubsurface {
 }
 
 impl Brdf for DiffuseSubsurface {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
@@ -99,7 +99,11 @@ impl Brdf for DiffuseSubsurface {
 }
 
 /// ρ of the interface.
-fn recycled(node: &Node, common: &Common, films: &Films) -> Result<f64, ParamError> {
+fn recycled(
+    node: &ParameterNode,
+    common: &CommonParameters,
+    films: &Films,
+) -> Result<f64, ParameterError> {
     let stack = node.member::<crate::stack::Stack>("stack")?.at(common.lambda);
     let absorbs = stack.iter().any(|film| film.0.im != 0.0);
     let growing = absorbs && node.reproduces(Defect::RecyclingBranch);
@@ -155,21 +159,22 @@ mod tests {
     use num_complex::Complex64;
 
     use super::*;
-    use crate::{Mode, Value, optics::Index, spec};
+    use crate::{Mode, ParameterValue, optics::RefractiveIndex, spec};
 
     fn bare(n: f64) -> Films {
         Films::new(&[], Complex64::ONE, n.into(), 0.5)
     }
 
     fn filmed(mode: Mode, n: f64, film: (f64, f64, f64)) -> DiffuseSubsurface {
-        let index = |n, k| Value::Index(Index::constant(n, k));
-        let stack = Node::with_defaults(spec::find_class("SingleFilm_StackModel").unwrap(), mode)
-            .with("material", index(film.0, film.1))
-            .and_then(|node| node.with("thickness", Value::Number(film.2)))
-            .unwrap();
-        let node = Node::with_defaults(&SPEC.class, mode)
+        let index = |n, k| ParameterValue::Index(RefractiveIndex::constant(n, k));
+        let stack =
+            ParameterNode::with_defaults(spec::find_class("SingleFilm_StackModel").unwrap(), mode)
+                .with("material", index(film.0, film.1))
+                .and_then(|node| node.with("thickness", ParameterValue::Number(film.2)))
+                .unwrap();
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
             .with("substrate", index(n, 0.0))
-            .and_then(|node| node.with("stack", Value::Member(Arc::new(stack))))
+            .and_then(|node| node.with("stack", ParameterValue::Member(Arc::new(stack))))
             .unwrap();
         DiffuseSubsurface::read(&node).unwrap()
     }
@@ -223,7 +228,7 @@ mod tests {
 
     #[test]
     fn the_reported_index_keeps_the_absorption_that_the_model_ignores() {
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound);
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound);
         let model = DiffuseSubsurface::read(&node).unwrap();
         assert_eq!(model.common().substrate, Complex64::new(4.05, 0.05));
         assert_eq!(model.films.substrate().im, 0.0);

@@ -20,12 +20,12 @@ use glam::DVec3;
 
 use super::{INTERFACE, interface};
 use crate::{
-    Defect, Direction, Incidence, Mueller, Node, ParamError,
-    models::{Brdf, COMMON, Common},
+    Defect, Direction, Incidence, Mueller, ParameterError, ParameterNode,
+    models::{Brdf, COMMON, CommonParameters},
     optics::film::Films,
-    polarization::{Frame, perp},
+    polarization::{TransverseFrame, perp},
     polarized_phase::PolarizedPhase,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`FirstDiffuse`] body.
@@ -42,10 +42,10 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     build: |node| Ok(Box::new(FirstDiffuse::read(node)?)),
 };
 
-const OWN: &[Param] = &[
-    Param::number("depoll", "0", "1", "Loss of linear polarization on the way, 0 to 1"),
-    Param::number("depolc", "0", "1", "Loss of circular polarization on the way, 0 to 1"),
-    Param::member(
+const OWN: &[Parameter] = &[
+    Parameter::number("depoll", "0", "1", "Loss of linear polarization on the way, 0 to 1"),
+    Parameter::number("depolc", "0", "1", "Loss of circular polarization on the way, 0 to 1"),
+    Parameter::member(
         "phase_function",
         Family::PolarizedPhase,
         "Polarized_Phase_Function",
@@ -56,7 +56,7 @@ const OWN: &[Param] = &[
 
 /// A thick body that scatters once.
 pub struct FirstDiffuse {
-    common: Common,
+    common: CommonParameters,
     films: Films,
     phase: Box<dyn PolarizedPhase>,
     /// Real part of the index of the host.
@@ -70,8 +70,8 @@ pub struct FirstDiffuse {
 }
 
 impl FirstDiffuse {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         common.only_reflection(SPEC.class.name)?;
         let films = interface(node, &common, common.substrate)?;
         let phase = node.member::<dyn PolarizedPhase>("phase_function")?;
@@ -101,8 +101,8 @@ impl FirstDiffuse {
     /// The part inside: R_out P R_in between two directions inside.
     fn scattered(&self, k_i: DVec3, k_s: DVec3, s: DVec3) -> Mueller {
         let across = perp(k_i, k_s);
-        let into = Turn::new(k_i, DVec3::Y, across);
-        let out = Turn::new(k_s, s, across);
+        let into = PlaneRotation::new(k_i, DVec3::Y, across);
+        let out = PlaneRotation::new(k_s, s, across);
         out.after(into.before(self.phase.at_cosine(k_i.dot(k_s).clamp(-1.0, 1.0))))
     }
 
@@ -140,7 +140,7 @@ impl FirstDiffuse {
 }
 
 impl Brdf for FirstDiffuse {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
@@ -159,14 +159,14 @@ impl Brdf for FirstDiffuse {
 
 /// The change between (s, p) and (∥, ⊥) of one beam. The two pairs have opposite handedness, so
 /// its Jones matrix [[c, d], [d, −c]] is a reflection and its own inverse.
-struct Turn {
+struct PlaneRotation {
     cos: f64,
     sin: f64,
 }
 
-impl Turn {
+impl PlaneRotation {
     fn new(k: DVec3, s: DVec3, across: DVec3) -> Self {
-        let frame = Frame::with_s(k, s);
+        let frame = TransverseFrame::with_s(k, s);
         let along = k.cross(across);
         let (c, d) = (along.dot(frame.first), along.dot(frame.second));
         Self { cos: c * c - d * d, sin: 2.0 * c * d }
@@ -195,18 +195,21 @@ mod tests {
     use std::{f64::consts::TAU, sync::Arc};
 
     use super::*;
-    use crate::{Basis, Geometry, Mode, Value, models, optics::Index, spec, special::gauss};
+    use crate::{
+        Basis, Geometry, Mode, ParameterValue, models, optics::RefractiveIndex, spec,
+        special::gauss,
+    };
 
     fn isotropic(n: f64) -> models::Model {
         let class = |name| spec::find_class(name).unwrap();
-        let scalar = Node::with_defaults(class("Isotropic_Phase_Function"), Mode::Sound);
-        let phase = Node::with_defaults(class("Unpolarized_Phase_Function"), Mode::Sound)
-            .with("phase_function", Value::Member(Arc::new(scalar)))
-            .and_then(|node| node.with("log_absorption", Value::Number(-300.0)))
+        let scalar = ParameterNode::with_defaults(class("Isotropic_Phase_Function"), Mode::Sound);
+        let phase = ParameterNode::with_defaults(class("Unpolarized_Phase_Function"), Mode::Sound)
+            .with("phase_function", ParameterValue::Member(Arc::new(scalar)))
+            .and_then(|node| node.with("log_absorption", ParameterValue::Number(-300.0)))
             .unwrap();
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-            .with("substrate", Value::Index(Index::constant(n, 0.0)))
-            .and_then(|node| node.with("phase_function", Value::Member(Arc::new(phase))))
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+            .with("substrate", ParameterValue::Index(RefractiveIndex::constant(n, 0.0)))
+            .and_then(|node| node.with("phase_function", ParameterValue::Member(Arc::new(phase))))
             .unwrap();
         models::build(&node).unwrap()
     }
@@ -238,7 +241,7 @@ mod tests {
     fn turning_into_and_out_of_the_scattering_plane_is_its_own_inverse() {
         let k = DVec3::new(0.48, 0.6, 0.64);
         let s = perp(DVec3::Z, k);
-        let turn = Turn::new(k, s, perp(k, DVec3::new(0.3, -0.2, -0.9)));
+        let turn = PlaneRotation::new(k, s, perp(k, DVec3::new(0.3, -0.2, -0.9)));
         let p = Mueller::from_row_major(std::array::from_fn(|j| (j as f64).sin()));
         assert!((turn.after(turn.after(p)) - p).largest() < 1e-15);
         assert!((turn.before(turn.before(p)) - p).largest() < 1e-15);

@@ -12,13 +12,13 @@ use std::f64::consts::FRAC_1_PI;
 
 use crate::{
     Direction, Incidence, Mueller,
-    models::{Brdf, COMMON, Common},
+    models::{Brdf, COMMON, CommonParameters},
     reflectance,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
 };
 
 /// The parameter of a diffuse body: its reflectance.
-pub const BODY: &[Param] = &[Param::member(
+pub const BODY: &[Parameter] = &[Parameter::member(
     "reflectance",
     Family::Reflectance,
     "Reflectance",
@@ -38,7 +38,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws::ALL,
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         let reflectance = reflectance::read(node, "reflectance", common.lambda)?;
         Ok(Box::new(Lambertian { common, reflectance }))
     },
@@ -47,12 +47,12 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 /// An ideal diffuse reflector.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lambertian {
-    common: Common,
+    common: CommonParameters,
     reflectance: f64,
 }
 
 impl Brdf for Lambertian {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
@@ -67,13 +67,14 @@ impl Brdf for Lambertian {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, Node, models};
+    use crate::{Basis, Geometry, Mode, ParameterNode, models};
 
     #[test]
     fn hemisphere_returns_the_reflectance() {
         // ∫ f cos θ dΩ over the hemisphere is π f for a constant f.
         let at = Geometry { theta_i: 0.7, theta_s: 0.2, phi_s: 1.0, rotation: 0.0 };
-        let model = models::build(&Node::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
+        let model =
+            models::build(&ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
         let f = model.mueller(&at, Basis::Psps)[(0, 0)];
         assert!((f * std::f64::consts::PI - 1.0).abs() < 1e-15);
     }

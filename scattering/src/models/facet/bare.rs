@@ -25,14 +25,14 @@ use num_complex::Complex64;
 
 use super::{
     FACET,
-    turn::{Tilted, Turn},
+    turn::{FacetOrientation, FacetRotation},
 };
 use crate::{
-    Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
-    geometry::Outgoing,
-    models::{Brdf, COMMON, Common},
-    optics::film::{Films, Pair},
-    polarization::Signed,
+    Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode, Side,
+    geometry::ScatteredRay,
+    models::{Brdf, COMMON, CommonParameters},
+    optics::film::{Films, SpAmplitudes},
+    polarization::SignedWeights,
     slope::SlopeDistribution,
     spec::{Class, Laws, Spec},
     stack::Stack,
@@ -54,7 +54,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 /// Specular facets.
 pub(crate) struct Facet {
-    pub(super) common: Common,
+    pub(super) common: CommonParameters,
     pub(super) slopes: Box<dyn SlopeDistribution>,
     pub(super) films: Films,
     /// Defect B5: no turn where the facet is met along its normal.
@@ -67,8 +67,8 @@ pub(super) const UNTURNED_REFLECTION: f64 = 1e-20;
 const UNTURNED_TRANSMISSION: f64 = 1e-14;
 
 impl Facet {
-    pub(crate) fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+    pub(crate) fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         let stack = node.member::<Stack>("stack")?.at(common.lambda);
         let mut films = Films::new(&stack, Complex64::ONE, common.substrate, common.lambda);
         if common.side.from_below() && node.reproduces(Defect::TinyLoss) {
@@ -102,7 +102,7 @@ impl Facet {
 
     #[inline]
     fn reflection(&self, incidence: &Incidence, direction: &Direction) -> (Jones, f64) {
-        let facet = Tilted::between(incidence, &Outgoing::one(direction));
+        let facet = FacetOrientation::between(incidence, &ScatteredRay::single(direction));
         let from_below = self.common.side.from_below();
         let coefficients = if from_below {
             self.films.r21(self.films.kappa_inside(facet.sin2.sqrt()))
@@ -154,20 +154,24 @@ pub(super) fn turned(
     incidence: &Incidence,
     direction: &Direction,
     z: f64,
-    coefficients: Pair,
+    coefficients: SpAmplitudes,
     unturned: bool,
 ) -> (Jones, f64) {
-    let mut turn = Turn::new(incidence, &Outgoing::one(direction), z);
+    let mut turn = FacetRotation::new(incidence, &ScatteredRay::single(direction), z);
     let mut norm = turn.norm();
     if norm < f64::MIN_POSITIVE || unturned {
-        turn = if unturned { Turn::none() } else { Turn::along_normal(direction, z) };
+        turn = if unturned {
+            FacetRotation::none()
+        } else {
+            FacetRotation::along_normal(direction, z)
+        };
         norm = 1.0;
     }
     (turn.apply(coefficients), norm)
 }
 
 impl Brdf for Facet {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
@@ -182,7 +186,12 @@ impl Brdf for Facet {
         self.matrices(incidence, directions, out);
     }
 
-    fn sum(&self, incidence: &Incidence, directions: &[Direction], weights: Signed<'_>) -> Mueller {
+    fn sum(
+        &self,
+        incidence: &Incidence,
+        directions: &[Direction],
+        weights: SignedWeights<'_>,
+    ) -> Mueller {
         self.sum_of_matrices(incidence, directions, weights)
     }
 
@@ -207,21 +216,29 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
     use super::*;
-    use crate::{Basis, Geometry, Mode, Model, Value, models, optics::Index, spec, special::gauss};
+    use crate::{
+        Basis, Geometry, Mode, Model, ParameterValue, models, optics::RefractiveIndex, spec,
+        special::gauss,
+    };
 
-    fn node(mode: Mode, index: Index, sdf: &str, params: &[(&str, f64)]) -> Node {
-        let slopes = Node::with_defaults(spec::find_class(sdf).unwrap(), mode);
+    fn node(
+        mode: Mode,
+        index: RefractiveIndex,
+        sdf: &str,
+        params: &[(&str, f64)],
+    ) -> ParameterNode {
+        let slopes = ParameterNode::with_defaults(spec::find_class(sdf).unwrap(), mode);
         let slopes = params
             .iter()
-            .fold(slopes, |node, (name, x)| node.with(name, Value::Number(*x)).unwrap());
-        Node::with_defaults(&SPEC.class, mode)
-            .with("substrate", Value::Index(index))
+            .fold(slopes, |node, (name, x)| node.with(name, ParameterValue::Number(*x)).unwrap());
+        ParameterNode::with_defaults(&SPEC.class, mode)
+            .with("substrate", ParameterValue::Index(index))
             .unwrap()
-            .with("sdf", Value::Member(slopes.into()))
+            .with("sdf", ParameterValue::Member(slopes.into()))
             .unwrap()
     }
 
-    fn gaussian(mode: Mode, index: Index, s: f64) -> Node {
+    fn gaussian(mode: Mode, index: RefractiveIndex, s: f64) -> ParameterNode {
         node(mode, index, "Gaussian_Slope_Distribution_Function", &[("s", s)])
     }
 
@@ -243,8 +260,8 @@ mod tests {
     #[test]
     fn gently_sloped_glass_reflects_and_transmits_all_the_light() {
         let at = |side| {
-            let node = gaussian(Mode::Sound, Index::constant(1.5, 0.0), 0.1)
-                .with("type", Value::Integer(side))
+            let node = gaussian(Mode::Sound, RefractiveIndex::constant(1.5, 0.0), 0.1)
+                .with("type", ParameterValue::Integer(side))
                 .unwrap();
             hemisphere(&models::build(&node).unwrap(), 0.4)[(0, 0)]
         };
@@ -255,7 +272,7 @@ mod tests {
 
     #[test]
     fn unpolarized_light_at_brewsters_angle_leaves_with_q_equal_to_i() {
-        let node = gaussian(Mode::Sound, Index::constant(1.5, 0.0), 0.1);
+        let node = gaussian(Mode::Sound, RefractiveIndex::constant(1.5, 0.0), 0.1);
         let theta = 1.5f64.atan();
         let at = Geometry { theta_i: theta, theta_s: theta, phi_s: 0.0, rotation: 0.0 };
         let m = models::build(&node).unwrap().mueller(&at, Basis::Psps);
@@ -264,7 +281,7 @@ mod tests {
 
     #[test]
     fn metal_at_60_degrees_turns_plus_45_into_right_circular_light() {
-        let node = gaussian(Mode::Sound, Index::constant(1.2, 7.0), 0.1);
+        let node = gaussian(Mode::Sound, RefractiveIndex::constant(1.2, 7.0), 0.1);
         let theta = PI / 3.0;
         let at = Geometry { theta_i: theta, theta_s: theta, phi_s: 0.0, rotation: 0.0 };
         let m = models::build(&node).unwrap().mueller(&at, Basis::Psps);
@@ -275,7 +292,8 @@ mod tests {
 
     #[test]
     fn close_to_retro_reflection_the_matrix_tends_to_its_limit() {
-        let model = models::build(&gaussian(Mode::Sound, Index::constant(1.3, 1.2), 0.5)).unwrap();
+        let model = models::build(&gaussian(Mode::Sound, RefractiveIndex::constant(1.3, 1.2), 0.5))
+            .unwrap();
         let at = |d: f64| {
             let at =
                 Geometry { theta_i: 0.7, theta_s: 0.7 + d, phi_s: PI - 0.6 * d, rotation: 0.0 };
@@ -293,7 +311,7 @@ mod tests {
     fn a_facet_met_along_its_normal_turns_the_bases_but_not_in_the_library() {
         let at = Geometry { theta_i: 0.0, theta_s: 0.0, phi_s: 0.7, rotation: 0.0 };
         let m = |mode| {
-            let node = gaussian(mode, Index::constant(1.3, 1.2), 0.3);
+            let node = gaussian(mode, RefractiveIndex::constant(1.3, 1.2), 0.3);
             models::build(&node).unwrap().mueller(&at, Basis::Psps)
         };
         let (sound, compat) = (m(Mode::Sound), m(Mode::Compat));
@@ -306,8 +324,8 @@ mod tests {
     fn light_from_the_substrate_is_changed_by_1e_10_in_the_library() {
         let at = Geometry { theta_i: 0.5, theta_s: 0.6, phi_s: 0.7, rotation: 0.1 };
         let m = |mode| {
-            let node = gaussian(mode, Index::constant(1.5, 0.0), 0.3)
-                .with("type", Value::Integer(2))
+            let node = gaussian(mode, RefractiveIndex::constant(1.5, 0.0), 0.3)
+                .with("type", ParameterValue::Integer(2))
                 .unwrap();
             models::build(&node).unwrap().mueller(&at, Basis::Psps)
         };
@@ -322,8 +340,8 @@ mod tests {
         let model = |side| {
             let params = [("sx", 0.4), ("sy", 0.15)];
             let sdf = "Anisotropic_Exponential_Slope_Distribution_Function";
-            let node = node(Mode::Sound, Index::constant(1.5, 0.0), sdf, &params)
-                .with("type", Value::Integer(side))
+            let node = node(Mode::Sound, RefractiveIndex::constant(1.5, 0.0), sdf, &params)
+                .with("type", ParameterValue::Integer(side))
                 .unwrap();
             models::build(&node).unwrap()
         };

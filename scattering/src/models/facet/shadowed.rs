@@ -9,14 +9,14 @@
 use super::{FACET, bare::Facet, read_shadow};
 use crate::{
     Direction, Incidence, Jones, Mueller,
-    models::{BATCH, Brdf, COMMON, Common},
-    polarization::Signed,
+    models::{BATCH, Brdf, COMMON, CommonParameters},
+    polarization::SignedWeights,
     shadow::Shadow,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
 };
 
 /// The parameter of shadowed facets.
-pub const SHADOW: &[Param] = &[Param::member(
+pub const SHADOW: &[Parameter] = &[Parameter::member(
     "shadow",
     Family::Shadow,
     "Shadow_Function",
@@ -48,7 +48,7 @@ struct ShadowedFacet {
 }
 
 impl Brdf for ShadowedFacet {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         self.facet.common()
     }
 
@@ -68,7 +68,12 @@ impl Brdf for ShadowedFacet {
         }
     }
 
-    fn sum(&self, incidence: &Incidence, directions: &[Direction], weights: Signed<'_>) -> Mueller {
+    fn sum(
+        &self,
+        incidence: &Incidence,
+        directions: &[Direction],
+        weights: SignedWeights<'_>,
+    ) -> Mueller {
         let mut sum = Mueller::ZERO;
         let mut shadowed = [0.0; BATCH];
         for (number, directions) in directions.chunks(BATCH).enumerate() {
@@ -78,7 +83,11 @@ impl Brdf for ShadowedFacet {
             for (shadowed, weight) in shadowed.iter_mut().zip(weights.weight) {
                 *shadowed *= weight;
             }
-            sum += self.facet.sum(incidence, directions, Signed { weight: shadowed, ..weights });
+            sum += self.facet.sum(
+                incidence,
+                directions,
+                SignedWeights { weight: shadowed, ..weights },
+            );
         }
         sum
     }

@@ -13,9 +13,9 @@ use super::{
 };
 use crate::{
     Direction, Incidence, Jones, Mueller,
-    models::{Brdf, COMMON, Common},
+    models::{Brdf, COMMON, CommonParameters},
     shadow::Shadow,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -30,7 +30,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             FACET,
             OVERCOAT,
-            &[Param::member(
+            &[Parameter::member(
                 "shadow",
                 Family::Shadow,
                 "Shadow_Function",
@@ -60,7 +60,7 @@ impl ShadowedFlakes {
 }
 
 impl Brdf for ShadowedFlakes {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         self.flakes.common()
     }
 

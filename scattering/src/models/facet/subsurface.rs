@@ -17,21 +17,21 @@
 
 use num_complex::Complex64;
 
-use super::{FACET, bare::turned, turn::Tilted};
+use super::{FACET, bare::turned, turn::FacetOrientation};
 use crate::{
-    Defect, Direction, Incidence, Jones, Mueller, Node, ParamError,
-    geometry::Outgoing,
-    models::{Brdf, COMMON, Common},
-    optics::film::{Films, Pair},
+    Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode,
+    geometry::ScatteredRay,
+    models::{Brdf, COMMON, CommonParameters},
+    optics::film::{Films, SpAmplitudes},
     slope::SlopeDistribution,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
     stack::Stack,
 };
 
 /// The parameters of a clear coat.
-pub const OVERCOAT: &[Param] = &[
-    Param::index("overcoat", "(1.59,0)", "Index of the clear coat; its k is taken as 0"),
-    Param::member(
+pub const OVERCOAT: &[Parameter] = &[
+    Parameter::index("overcoat", "(1.59,0)", "Index of the clear coat; its k is taken as 0"),
+    Parameter::member(
         "overcoat_films",
         Family::Stack,
         "StackModel",
@@ -59,7 +59,7 @@ const UNTURNED: f64 = 1e-10;
 
 /// Flakes under a clear coat.
 pub(crate) struct SubsurfaceFacet {
-    common: Common,
+    common: CommonParameters,
     slopes: Box<dyn SlopeDistribution>,
     coat: f64,
     flakes: Films,
@@ -68,19 +68,19 @@ pub(crate) struct SubsurfaceFacet {
 }
 
 /// The two rays inside the coat.
-pub(super) struct Inside {
+pub(super) struct InternalRays {
     pub(super) incidence: Incidence,
     pub(super) direction: Direction,
 }
 
 impl SubsurfaceFacet {
-    pub(crate) fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+    pub(crate) fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         common.only_reflection(node.class.name)?;
         let coat = node.index("overcoat").at(common.lambda).re;
         if coat < 1.0 || !coat.is_finite() {
             let problem = format!("an index of {coat} is below that of the air");
-            return Err(ParamError::new("overcoat", problem));
+            return Err(ParameterError::new("overcoat", problem));
         }
         let at = |name: &str| Ok(node.member::<Stack>(name)?.at(common.lambda));
         let (on_flakes, on_coat) = (at("stack")?, at("overcoat_films")?);
@@ -101,18 +101,18 @@ impl SubsurfaceFacet {
     }
 
     /// The rays that belong to these outside the coat.
-    pub(super) fn inside(&self, incidence: &Incidence, direction: &Direction) -> Inside {
+    pub(super) fn inside(&self, incidence: &Incidence, direction: &Direction) -> InternalRays {
         let (sin_i, sin_s) = (incidence.sin / self.coat, direction.sin / self.coat);
-        Inside {
+        InternalRays {
             incidence: incidence.inclined((sin_i, (1.0 - sin_i * sin_i).sqrt())),
             direction: direction.inclined((sin_s, (1.0 - sin_s * sin_s).sqrt())),
         }
     }
 
     /// (J, w) of the flakes alone between rays inside the coat; w lacks 1/(4 cos θ_i cos θ_s).
-    fn flakes(&self, inside: &Inside) -> (Jones, f64) {
-        let Inside { incidence, direction } = inside;
-        let facet = Tilted::between(incidence, &Outgoing::one(direction));
+    fn flakes(&self, inside: &InternalRays) -> (Jones, f64) {
+        let InternalRays { incidence, direction } = inside;
+        let facet = FacetOrientation::between(incidence, &ScatteredRay::single(direction));
         let n = self.coat;
         let coefficients = self.flakes.r12_known(n * facet.cos(), n * n * facet.sin2);
         let unturned = self.unturned && facet.sin2 <= UNTURNED;
@@ -121,13 +121,13 @@ impl SubsurfaceFacet {
         (jones, facet.weight(self.slopes.density(x, y), norm))
     }
 
-    fn crossing(&self, sin: f64) -> Pair {
+    fn crossing(&self, sin: f64) -> SpAmplitudes {
         self.interface.t12(sin.into())
     }
 }
 
 /// `out`·J·`into` for diagonal `out` and `into`.
-fn between(out: Pair, jones: Jones, into: Pair) -> Jones {
+fn between(out: SpAmplitudes, jones: Jones, into: SpAmplitudes) -> Jones {
     Jones {
         ss: out.s * jones.ss * into.s,
         ps: out.s * jones.ps * into.p,
@@ -138,7 +138,12 @@ fn between(out: Pair, jones: Jones, into: Pair) -> Jones {
 
 impl SubsurfaceFacet {
     /// (J, w) with the BRDF w·M(J).
-    fn event(&self, incidence: &Incidence, direction: &Direction, into: Pair) -> (Jones, f64) {
+    fn event(
+        &self,
+        incidence: &Incidence,
+        direction: &Direction,
+        into: SpAmplitudes,
+    ) -> (Jones, f64) {
         let (jones, weight) = self.flakes(&self.inside(incidence, direction));
         let jones = between(self.crossing(direction.sin), jones, into);
         (jones, weight / (4.0 * incidence.cos * direction.cos))
@@ -146,7 +151,7 @@ impl SubsurfaceFacet {
 }
 
 impl Brdf for SubsurfaceFacet {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 

@@ -17,14 +17,14 @@
 
 use crate::{
     Direction, Incidence, Jones,
-    geometry::Outgoing,
+    geometry::ScatteredRay,
     lanes::{Complex, Real},
-    optics::film::Pair,
+    optics::film::SpAmplitudes,
 };
 
 /// The facets that reflect a beam into one direction or several.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tilted<R> {
+pub(crate) struct FacetOrientation<R> {
     /// |h|², h = k_o − k_i along their normals: 4 cos² ι.
     h2: R,
     /// h_z².
@@ -35,15 +35,15 @@ pub(crate) struct Tilted<R> {
     pub(crate) slopes: [R; 2],
 }
 
-impl<R: Real> Tilted<R> {
+impl<R: Real> FacetOrientation<R> {
     #[inline(always)]
-    pub(crate) fn between(incidence: &Incidence, to: &Outgoing<R>) -> Self {
+    pub(crate) fn between(incidence: &Incidence, to: &ScatteredRay<R>) -> Self {
         let (kx, ky) = (to.sin * to.cos_phi, to.sin * to.sin_phi);
         let length_squared = |x: R, z: R| x * x + ky * ky + z * z;
         let (hx, hz) = (kx - incidence.sin, to.cos + incidence.cos);
         // |k_o + k_i| = 2 sin ι.
         let sin2 = length_squared(kx + incidence.sin, to.cos - incidence.cos) * 0.25;
-        let per_hz = hz.all(1.0) / hz;
+        let per_hz = hz.splat(1.0) / hz;
         let (x, y) = (hx * per_hz, ky * per_hz);
         let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);
         Self {
@@ -69,15 +69,15 @@ impl<R: Real> Tilted<R> {
 
 /// The projections of w; s and p of each ray are those of positive polar angles at its azimuth.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Turn<R> {
+pub(crate) struct FacetRotation<R> {
     incoming: [R; 2],
     outgoing: [R; 2],
 }
 
-impl<R: Real> Turn<R> {
+impl<R: Real> FacetRotation<R> {
     /// Between the rays (sin θ_i, 0, −cos θ_i) and (sin θ_s cos φ, sin θ_s sin φ, `z`).
     #[inline(always)]
-    pub(crate) fn new(incidence: &Incidence, to: &Outgoing<R>, z: R) -> Self {
+    pub(crate) fn new(incidence: &Incidence, to: &ScatteredRay<R>, z: R) -> Self {
         let (si, ci) = (incidence.sin, incidence.cos);
         let (so, sin, cos) = (to.sin, to.sin_phi, to.cos_phi);
         let across = so * sin;
@@ -88,7 +88,7 @@ impl<R: Real> Turn<R> {
         }
     }
 
-    /// |w|⁴, by which intensities of [`Turn::apply`] are too large.
+    /// |w|⁴, by which intensities of [`FacetRotation::apply`] are too large.
     #[inline(always)]
     pub(crate) fn norm(&self) -> R {
         let [c, d] = self.incoming;
@@ -110,7 +110,7 @@ impl<R: Real> Turn<R> {
     }
 }
 
-impl Turn<f64> {
+impl FacetRotation<f64> {
     /// The turn of a facet that is met exactly along its normal: its s is that of the incident ray.
     #[inline]
     pub(crate) fn along_normal(direction: &Direction, z: f64) -> Self {
@@ -124,8 +124,8 @@ impl Turn<f64> {
 
     /// |w|² J for the facet's own `coefficients`.
     #[inline]
-    pub(crate) fn apply(&self, coefficients: Pair) -> Jones {
-        let Pair { s, p } = coefficients;
+    pub(crate) fn apply(&self, coefficients: SpAmplitudes) -> Jones {
+        let SpAmplitudes { s, p } = coefficients;
         let [ss, ps, sp, pp] = self.elements([s.into(), p.into()]).map(Into::into);
         Jones { ss, ps, sp, pp }
     }

@@ -10,20 +10,20 @@
 
 use std::f64::consts::TAU;
 
-use super::orders::{ConeModel, bounded, half_angle, media, order};
+use super::orders::{OrderConeModel, bounded, half_angle, media, order};
 use crate::{
     Brdf,
-    cross_grating::{CrossGrating, CrossPattern, CrossProfile, Truncation},
-    models::{COMMON, Common},
-    rcw::Structure,
-    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+    cross_grating::{CrossGrating, CrossPattern, CrossProfile, HarmonicTruncation},
+    models::{COMMON, CommonParameters},
+    rcw::PeriodicStructure,
+    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::number("alpha", "0.01", "rad", "Half angle of the cone of every order"),
-    Param::integer("order1", "10", "Highest harmonic along axis 1"),
-    Param::integer("order2", "10", "Highest harmonic along axis 2"),
-    Param::member(
+const OWN: &[Parameter] = &[
+    Parameter::number("alpha", "0.01", "rad", "Half angle of the cone of every order"),
+    Parameter::integer("order1", "10", "Highest harmonic along axis 1"),
+    Parameter::integer("order2", "10", "Highest harmonic along axis 2"),
+    Parameter::member(
         "grating",
         Family::CrossGrating,
         "CrossGrating",
@@ -44,18 +44,21 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws { realizable: true, ..Laws::NONE },
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         let structure = structure(node, &common)?;
-        Ok(Box::new(ConeModel::new(common, structure, half_angle(node)?)))
+        Ok(Box::new(OrderConeModel::new(common, structure, half_angle(node)?)))
     },
 };
 
-fn structure(node: &Node, common: &Common) -> Result<Structure, ParamError> {
+fn structure(
+    node: &ParameterNode,
+    common: &CommonParameters,
+) -> Result<PeriodicStructure, ParameterError> {
     let (order1, order2) = (order(node, "order1")?, order(node, "order2")?);
     let grating = node.member::<dyn CrossGrating>("grating")?;
     let profile = grating.at(common.lambda).map_err(|error| error.inside("grating"))?;
     media(common, profile.above, profile.below)?;
-    let kept = needed(&profile, Truncation { order1, order2 });
+    let kept = needed(&profile, HarmonicTruncation { order1, order2 });
     let size = |order: usize| order.checked_mul(2).and_then(|n| n.checked_add(1));
     bounded("order1", size(kept.order1))?;
     bounded(
@@ -65,7 +68,7 @@ fn structure(node: &Node, common: &Common) -> Result<Structure, ParamError> {
     let (k0, lattice) = (TAU / common.lambda, profile.lattice);
     let slices = profile.slices.iter().filter(|slice| slice.thickness > 0.0);
     let harmonics = kept.harmonics();
-    Ok(Structure {
+    Ok(PeriodicStructure {
         layers: slices.map(|s| s.operators(kept, lattice.zeta, k0 * s.thickness)).collect(),
         incident: 1.0,
         behind: profile.below,
@@ -75,11 +78,11 @@ fn structure(node: &Node, common: &Common) -> Result<Structure, ParamError> {
 }
 
 /// No harmonics along an axis on which nothing depends.
-fn needed(profile: &CrossProfile, wanted: Truncation) -> Truncation {
+fn needed(profile: &CrossProfile, wanted: HarmonicTruncation) -> HarmonicTruncation {
     let patterns = || profile.slices.iter().map(|slice| &slice.pattern);
     let varies_1 = patterns().any(|p| !matches!(p, CrossPattern::Along2(_)));
     let varies_2 = patterns().any(|p| !matches!(p, CrossPattern::Along1(_)));
-    Truncation {
+    HarmonicTruncation {
         order1: if varies_1 { wanted.order1 } else { 0 },
         order2: if varies_2 { wanted.order2 } else { 0 },
     }

@@ -10,19 +10,19 @@
 
 use std::f64::consts::TAU;
 
-use super::orders::{ConeModel, bounded, half_angle, media, order};
+use super::orders::{OrderConeModel, bounded, half_angle, media, order};
 use crate::{
     Brdf,
     grating::Grating,
-    models::{COMMON, Common},
-    rcw::Structure,
-    spec::{Class, Family, Laws, Node, Param, ParamError, Spec},
+    models::{COMMON, CommonParameters},
+    rcw::PeriodicStructure,
+    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Param] = &[
-    Param::number("alpha", "0.0175", "rad", "Half angle of the cone of every order"),
-    Param::integer("order", "25", "Highest harmonic that is kept"),
-    Param::member("grating", Family::Grating, "Grating", "Single_Line_Grating", "The grating"),
+const OWN: &[Parameter] = &[
+    Parameter::number("alpha", "0.0175", "rad", "Half angle of the cone of every order"),
+    Parameter::integer("order", "25", "Highest harmonic that is kept"),
+    Parameter::member("grating", Family::Grating, "Grating", "Single_Line_Grating", "The grating"),
 ];
 
 /// How programs name, parameterize and build the model.
@@ -37,13 +37,16 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws { realizable: true, ..Laws::NONE },
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         let structure = structure(node, &common)?;
-        Ok(Box::new(ConeModel::new(common, structure, half_angle(node)?)))
+        Ok(Box::new(OrderConeModel::new(common, structure, half_angle(node)?)))
     },
 };
 
-fn structure(node: &Node, common: &Common) -> Result<Structure, ParamError> {
+fn structure(
+    node: &ParameterNode,
+    common: &CommonParameters,
+) -> Result<PeriodicStructure, ParameterError> {
     let order = order(node, "order")?;
     bounded("order", order.checked_mul(2))?;
     let grating = node.member::<dyn Grating>("grating")?;
@@ -52,7 +55,7 @@ fn structure(node: &Node, common: &Common) -> Result<Structure, ParamError> {
     let k0 = TAU / common.lambda;
     let slices = profile.slices.iter().filter(|slice| slice.thickness > 0.0);
     let last = order as isize;
-    Ok(Structure {
+    Ok(PeriodicStructure {
         layers: slices.map(|s| s.pattern.operators(order, k0 * s.thickness)).collect(),
         incident: 1.0,
         behind: profile.below,

@@ -12,86 +12,90 @@ use glam::DVec3;
 use num_complex::Complex64;
 
 use crate::{
-    Direction, Incidence, Mueller, Node, ParamError, Side,
+    Direction, Incidence, Mueller, ParameterError, ParameterNode, Side,
     grating::positive,
-    models::{Brdf, Common, Spot},
-    rcw::{Structure, Wave},
+    models::{Brdf, CommonParameters, LobeSupport},
+    rcw::{IncidentWave, PeriodicStructure},
 };
 
 /// Largest number of harmonics of a problem; the matrices have its square elements.
 const MOST_HARMONICS: usize = 1500;
 
 /// The order `name` of a truncation.
-pub(super) fn order(node: &Node, name: &str) -> Result<usize, ParamError> {
+pub(super) fn order(node: &ParameterNode, name: &str) -> Result<usize, ParameterError> {
     let order = node.integer(name);
     usize::try_from(order)
-        .map_err(|_| ParamError::new(name, format!("{order} is not 0 or greater")))
+        .map_err(|_| ParameterError::new(name, format!("{order} is not 0 or greater")))
 }
 
 /// An error at `name` if there are too many harmonics.
-pub(super) fn bounded(name: &str, harmonics: Option<usize>) -> Result<usize, ParamError> {
+pub(super) fn bounded(name: &str, harmonics: Option<usize>) -> Result<usize, ParameterError> {
     harmonics
         .filter(|n| *n <= MOST_HARMONICS)
-        .ok_or_else(|| ParamError::new(name, format!("more than {MOST_HARMONICS} harmonics")))
+        .ok_or_else(|| ParameterError::new(name, format!("more than {MOST_HARMONICS} harmonics")))
 }
 
 /// The cone's half angle `alpha`.
-pub(super) fn half_angle(node: &Node) -> Result<f64, ParamError> {
+pub(super) fn half_angle(node: &ParameterNode) -> Result<f64, ParameterError> {
     let alpha = positive(node, "alpha")?;
     if alpha <= std::f64::consts::FRAC_PI_2 {
         return Ok(alpha);
     }
-    Err(ParamError::new("alpha", format!("{alpha} is more than a right angle")))
+    Err(ParameterError::new("alpha", format!("{alpha} is more than a right angle")))
 }
 
 /// Errors unless the grating lies between vacuum and the substrate.
-pub(super) fn media(common: &Common, above: Complex64, below: Complex64) -> Result<(), ParamError> {
+pub(super) fn media(
+    common: &CommonParameters,
+    above: Complex64,
+    below: Complex64,
+) -> Result<(), ParameterError> {
     if below != common.substrate {
         let problem = format!("{below} is not the substrate's index {}", common.substrate);
-        return Err(ParamError::new("grating.medium_t", problem));
+        return Err(ParameterError::new("grating.medium_t", problem));
     }
     if above != Complex64::ONE {
         let problem = format!("{above} is not 1: the model is lit from vacuum");
-        return Err(ParamError::new("grating.medium_i", problem));
+        return Err(ParameterError::new("grating.medium_i", problem));
     }
     Ok(())
 }
 
 /// A diffracted order as light in a cone.
 #[derive(Clone, Copy, Debug)]
-struct Cone {
+struct OrderCone {
     axis: DVec3,
     /// Efficiency over πα².
     mueller: Mueller,
 }
 
 /// A grating whose orders are cones.
-pub(super) struct ConeModel {
-    common: Common,
+pub(super) struct OrderConeModel {
+    common: CommonParameters,
     /// The structure as the incident light meets it.
-    structure: Structure,
+    structure: PeriodicStructure,
     alpha: f64,
     cos_alpha: f64,
-    recent: Mutex<Vec<Remembered>>,
+    recent: Mutex<Vec<CachedOrders>>,
 }
 
 /// Beams whose orders are kept; a run asks for a few beams many times.
 const KEPT: usize = 32;
 
-type Orders = Arc<OnceLock<Vec<Cone>>>;
+type SharedOrders = Arc<OnceLock<Vec<OrderCone>>>;
 
 /// The orders of one beam, worked out by whoever asks first.
-struct Remembered {
+struct CachedOrders {
     theta: f64,
     rotation: f64,
-    orders: Orders,
+    orders: SharedOrders,
 }
 
-impl ConeModel {
+impl OrderConeModel {
     /// `structure` as lit from above; it is turned over for light from the substrate.
-    pub(super) fn new(common: Common, structure: Structure, alpha: f64) -> Self {
+    pub(super) fn new(common: CommonParameters, structure: PeriodicStructure, alpha: f64) -> Self {
         let structure = if common.side.from_below() {
-            Structure {
+            PeriodicStructure {
                 layers: structure.layers.into_iter().rev().collect(),
                 incident: structure.behind.re,
                 behind: structure.incident.into(),
@@ -103,7 +107,7 @@ impl ConeModel {
         Self { common, structure, alpha, cos_alpha: alpha.cos(), recent: Mutex::default() }
     }
 
-    fn orders(&self, incidence: &Incidence) -> Orders {
+    fn orders(&self, incidence: &Incidence) -> SharedOrders {
         // A panic while the list was locked leaves a usable list.
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         let (theta, rotation) = (incidence.theta(), incidence.rotation());
@@ -113,15 +117,15 @@ impl ConeModel {
         if recent.len() == KEPT {
             recent.remove(0);
         }
-        let orders = Orders::default();
-        recent.push(Remembered { theta, rotation, orders: orders.clone() });
+        let orders = SharedOrders::default();
+        recent.push(CachedOrders { theta, rotation, orders: orders.clone() });
         orders
     }
 
-    fn cones(&self, incidence: &Incidence) -> Vec<Cone> {
+    fn cones(&self, incidence: &Incidence) -> Vec<OrderCone> {
         let lateral = incidence.to_sample(self.structure.incident * incidence.sin, 0.0);
         let normal_s = incidence.to_sample(0.0, 1.0);
-        let wave = Wave { lateral, cos: incidence.cos, normal_s };
+        let wave = IncidentWave { lateral, cos: incidence.cos, normal_s };
         let side = self.common.side;
         let behind = matches!(side, Side::DownDown | Side::UpUp);
         let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);
@@ -133,7 +137,7 @@ impl ConeModel {
                 let (x, y) = order.lateral;
                 // Turned over, p has the other sign on both sides.
                 let jones = if side.from_below() { order.jones.flipped() } else { order.jones };
-                Cone {
+                OrderCone {
                     axis: DVec3::new(x * cos - y * sin, y * cos + x * sin, order.cos),
                     mueller: jones.mueller() * scale,
                 }
@@ -141,7 +145,7 @@ impl ConeModel {
             .collect()
     }
 
-    fn sum(&self, cones: &[Cone], direction: &Direction) -> Mueller {
+    fn sum(&self, cones: &[OrderCone], direction: &Direction) -> Mueller {
         let v = direction.k();
         let mut sum = Mueller::ZERO;
         for cone in cones.iter().filter(|cone| cone.axis.dot(v) >= self.cos_alpha) {
@@ -151,15 +155,15 @@ impl ConeModel {
     }
 }
 
-impl Brdf for ConeModel {
-    fn common(&self) -> &Common {
+impl Brdf for OrderConeModel {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
-    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
+    fn lobe_supports(&self, incidence: &Incidence) -> Vec<LobeSupport> {
         let orders = self.orders(incidence);
         let cones = orders.get_or_init(|| self.cones(incidence));
-        cones.iter().map(|cone| Spot { axis: cone.axis, half_angle: self.alpha }).collect()
+        cones.iter().map(|cone| LobeSupport { axis: cone.axis, half_angle: self.alpha }).collect()
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {

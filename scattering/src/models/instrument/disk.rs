@@ -16,11 +16,11 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::{Mueller, Node, ParamError, spec::Param, special::gauss};
+use crate::{Mueller, ParameterError, ParameterNode, spec::Parameter, special::gauss};
 
 /// A point of the disk.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point {
+pub(super) struct DiskPoint {
     /// Its share; all add up to 1.
     pub weight: f64,
     /// α r, radians.
@@ -32,30 +32,30 @@ pub(super) struct Point {
 }
 
 /// The size of the cone and the order of the rule.
-pub(super) const CONE: &[Param] = &[
-    Param::number("alpha", "0", "deg", "Half-angle of the cone"),
-    Param::integer("integralmode", "3", "Order of the rule of integration over the cone"),
+pub(super) const CONE: &[Parameter] = &[
+    Parameter::number("alpha", "0", "deg", "Half-angle of the cone"),
+    Parameter::integer("integralmode", "3", "Order of the rule of integration over the cone"),
 ];
 
 /// Orders above this one cost more than they can gain.
 const HIGHEST_ORDER: i32 = 100;
 
 /// The points for the node's `alpha` and `integralmode`; without a cone only its axis.
-pub(super) fn points(node: &Node) -> Result<Vec<Point>, ParamError> {
+pub(super) fn points(node: &ParameterNode) -> Result<Vec<DiskPoint>, ParameterError> {
     let alpha = node.number("alpha");
     if !(0.0..90.0).contains(&alpha) {
-        return Err(ParamError::new("alpha", format!("{alpha} deg is not from 0 to below 90")));
+        return Err(ParameterError::new("alpha", format!("{alpha} deg is not from 0 to below 90")));
     }
     let order = node.integer("integralmode");
     if !(1..=HIGHEST_ORDER).contains(&order) {
         let problem = format!("{order} is not an order from 1 to {HIGHEST_ORDER}");
-        return Err(ParamError::new("integralmode", problem));
+        return Err(ParameterError::new("integralmode", problem));
     }
     let order = if alpha == 0.0 { 1 } else { order as usize };
     Ok(rule(order, alpha.to_radians()))
 }
 
-fn rule(order: usize, alpha: f64) -> Vec<Point> {
+fn rule(order: usize, alpha: f64) -> Vec<DiskPoint> {
     let rings = if order.is_multiple_of(2) {
         gauss::legendre(order / 2, 0.0, 1.0)
     } else {
@@ -65,20 +65,20 @@ fn rule(order: usize, alpha: f64) -> Vec<Point> {
     let mut points = Vec::with_capacity(rings.len() * spokes);
     for (square, weight) in rings {
         if square == 0.0 {
-            points.push(Point { weight, angle: 0.0, sin: 0.0, cos: 1.0 });
+            points.push(DiskPoint { weight, angle: 0.0, sin: 0.0, cos: 1.0 });
             continue;
         }
         points.extend((0..spokes).map(|j| {
             let (sin, cos) = (PI * j as f64 / order as f64).sin_cos();
-            Point { weight: weight / spokes as f64, angle: alpha * square.sqrt(), sin, cos }
+            DiskPoint { weight: weight / spokes as f64, angle: alpha * square.sqrt(), sin, cos }
         }));
     }
     points
 }
 
-impl Point {
+impl DiskPoint {
     /// The beam tilted to this point of a cone, the angles of which are multiplied by `factor`.
-    pub(super) fn tilt(&self, beam: &Beam, factor: f64) -> DVec3 {
+    pub(super) fn tilt(&self, beam: &ConeAxis, factor: f64) -> DVec3 {
         let (sin, cos) = (self.angle * factor).sin_cos();
         cos * beam.along + sin * (self.sin * beam.across.0 - self.cos * beam.across.1)
     }
@@ -86,14 +86,14 @@ impl Point {
 
 /// The axis of a cone.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Beam {
+pub(super) struct ConeAxis {
     /// r̂.
     along: DVec3,
     /// θ̂ and φ̂.
     across: (DVec3, DVec3),
 }
 
-impl Beam {
+impl ConeAxis {
     /// From the sines and cosines of the polar angle and the azimuth.
     pub(super) fn new(sin: f64, cos: f64, sin_phi: f64, cos_phi: f64) -> Self {
         Self {
@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn a_tilted_direction_lies_on_the_cone() {
         let (theta, phi) = (0.7f64, 2.1f64);
-        let beam = Beam::new(theta.sin(), theta.cos(), phi.sin(), phi.cos());
+        let beam = ConeAxis::new(theta.sin(), theta.cos(), phi.sin(), phi.cos());
         for point in rule(4, 0.1) {
             let v = point.tilt(&beam, 0.5);
             assert!((v.length() - 1.0).abs() < 1e-15);

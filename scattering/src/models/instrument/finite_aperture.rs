@@ -10,11 +10,11 @@
 //! T. A. Germer and C. C. Asmail, *Goniometric optical scatter instrument for out-of-plane
 //! ellipsometry measurements*, Rev. Sci. Instrum. 70, 3688 (1999).
 
-use super::disk::{self, Beam, CONE, Point};
+use super::disk::{self, CONE, ConeAxis, DiskPoint};
 use crate::{
     Basis, Direction, Incidence, Model, Mueller,
-    models::{self, Brdf, COMMON, Common, Spot},
-    spec::{Class, Family, Laws, Param, Spec},
+    models::{self, Brdf, COMMON, CommonParameters, LobeSupport},
+    spec::{Class, Family, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`FiniteAperture`].
@@ -29,14 +29,14 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws { reciprocal: false, ..Laws::NOT_PASSIVE },
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         let model = Model::new(models::nested(node, "model", &common)?, node.mode);
         Ok(Box::new(FiniteAperture { common, model, points: disk::points(node)? }))
     },
 };
 
 /// The model that an instrument looks at.
-pub(super) const INNER: &[Param] = &[Param::member(
+pub(super) const INNER: &[Parameter] = &[Parameter::member(
     "model",
     Family::Brdf,
     "BRDF_Model",
@@ -46,14 +46,20 @@ pub(super) const INNER: &[Param] = &[Param::member(
 
 /// A model seen through a finite aperture.
 pub struct FiniteAperture {
-    common: Common,
+    common: CommonParameters,
     model: Model,
-    points: Vec<Point>,
+    points: Vec<DiskPoint>,
 }
 
 impl FiniteAperture {
-    fn average(&self, incidence: &Incidence, direction: &Direction, work: &mut Work) -> Mueller {
-        let beam = Beam::new(direction.sin, direction.cos, direction.sin_phi, direction.cos_phi);
+    fn average(
+        &self,
+        incidence: &Incidence,
+        direction: &Direction,
+        work: &mut ConeBuffers,
+    ) -> Mueller {
+        let beam =
+            ConeAxis::new(direction.sin, direction.cos, direction.sin_phi, direction.cos_phi);
         for (node, point) in work.directions.iter_mut().zip(&self.points) {
             let (theta, phi) = disk::angles(point.tilt(&beam, 1.0));
             *node = Direction::new(theta, phi);
@@ -67,8 +73,8 @@ impl FiniteAperture {
         sum * (1.0 / direction.cos)
     }
 
-    fn work(&self) -> Work {
-        Work {
+    fn work(&self) -> ConeBuffers {
+        ConeBuffers {
             directions: vec![Direction::new(0.0, 0.0); self.points.len()],
             matrices: vec![Mueller::ZERO; self.points.len()],
         }
@@ -76,18 +82,18 @@ impl FiniteAperture {
 }
 
 /// The directions of the cone and what the model says there.
-struct Work {
+struct ConeBuffers {
     directions: Vec<Direction>,
     matrices: Vec<Mueller>,
 }
 
 impl Brdf for FiniteAperture {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
-    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
-        self.model.spots(incidence)
+    fn lobe_supports(&self, incidence: &Incidence) -> Vec<LobeSupport> {
+        self.model.lobe_supports(incidence)
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
@@ -108,13 +114,15 @@ impl Brdf for FiniteAperture {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, Node, models, spec::Value};
+    use crate::{Basis, Geometry, Mode, ParameterNode, models, spec::ParameterValue};
 
     #[test]
     fn without_an_aperture_it_is_the_model_in_every_basis() {
-        let aperture = models::build(&Node::with_defaults(&super::SPEC.class, Mode::Sound));
+        let aperture =
+            models::build(&ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound));
         let inner = models::find("Microroughness_BRDF_Model").unwrap();
-        let inner = models::build(&Node::with_defaults(&inner.class, Mode::Sound)).unwrap();
+        let inner =
+            models::build(&ParameterNode::with_defaults(&inner.class, Mode::Sound)).unwrap();
         let aperture = aperture.unwrap();
         let at = Geometry { theta_i: 0.7, theta_s: 0.5, phi_s: 2.0, rotation: 0.4 };
         for basis in [Basis::Psps, Basis::Xyxy, Basis::Plane] {
@@ -126,11 +134,11 @@ mod tests {
     #[test]
     fn a_white_wall_stays_as_bright_as_the_mean_cosine() {
         let lambertian = models::find("Lambertian_BRDF_Model").unwrap();
-        let inner = Node::with_defaults(&lambertian.class, Mode::Sound);
-        let node = Node::with_defaults(&super::SPEC.class, Mode::Sound)
-            .with("model", Value::Member(inner.into()))
-            .and_then(|n| n.with("alpha", Value::Number(5.0)))
-            .and_then(|n| n.with("integralmode", Value::Integer(6)))
+        let inner = ParameterNode::with_defaults(&lambertian.class, Mode::Sound);
+        let node = ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)
+            .with("model", ParameterValue::Member(inner.into()))
+            .and_then(|n| n.with("alpha", ParameterValue::Number(5.0)))
+            .and_then(|n| n.with("integralmode", ParameterValue::Integer(6)))
             .unwrap();
         let at = Geometry { theta_i: 0.7, theta_s: 0.5, phi_s: 2.0, rotation: 0.0 };
         let f = models::build(&node).unwrap().mueller(&at, Basis::Psps)[(0, 0)];
@@ -142,8 +150,8 @@ mod tests {
 
     #[test]
     fn a_model_for_another_wavelength_is_refused() {
-        let node = Node::with_defaults(&super::SPEC.class, Mode::Sound);
-        let error = models::build(&node.with("lambda", Value::Number(0.6)).unwrap());
+        let node = ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound);
+        let error = models::build(&node.with("lambda", ParameterValue::Number(0.6)).unwrap());
         assert_eq!(error.err().unwrap().parameter, "model.lambda");
     }
 }

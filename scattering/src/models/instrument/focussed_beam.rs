@@ -18,13 +18,13 @@
 use std::f64::consts::PI;
 
 use super::{
-    disk::{self, Beam, CONE, Point},
+    disk::{self, CONE, ConeAxis, DiskPoint},
     finite_aperture::INNER,
 };
 use crate::{
-    Basis, Defect, Direction, Incidence, Model, Mueller, ParamError,
-    models::{self, Brdf, COMMON, Common, Spot},
-    spec::{Class, Laws, Param, Spec},
+    Basis, Defect, Direction, Incidence, Model, Mueller, ParameterError,
+    models::{self, Brdf, COMMON, CommonParameters, LobeSupport},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`FocussedBeam`].
@@ -39,11 +39,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws { reciprocal: false, ..Laws::NOT_PASSIVE },
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         let model = Model::new(models::nested(node, "model", &common)?, node.mode);
         let focal_point = node.number("focal_point");
         if !focal_point.is_finite() {
-            return Err(ParamError::new("focal_point", format!("{focal_point} is not finite")));
+            return Err(ParameterError::new("focal_point", format!("{focal_point} is not finite")));
         }
         let points = disk::points(node)?;
         let mirrored = points.len() > 1 && node.reproduces(Defect::FocussedMirror);
@@ -51,7 +51,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
 };
 
-const OWN: &[Param] = &[Param::number(
+const OWN: &[Parameter] = &[Parameter::number(
     "focal_point",
     "1",
     "1",
@@ -60,30 +60,30 @@ const OWN: &[Param] = &[Param::number(
 
 /// A model in a converging beam.
 pub struct FocussedBeam {
-    common: Common,
+    common: CommonParameters,
     model: Model,
-    points: Vec<Point>,
+    points: Vec<DiskPoint>,
     focal_point: f64,
     mirrored: bool,
 }
 
 /// One ray of the beam.
-struct Ray<'a> {
+struct ConeRay<'a> {
     incidence: Incidence,
     /// Azimuth of its propagation in the laboratory.
     azimuth: f64,
-    point: &'a Point,
+    point: &'a DiskPoint,
 }
 
 impl FocussedBeam {
-    fn ray<'a>(&self, source: &Beam, rotation: f64, point: &'a Point) -> Ray<'a> {
+    fn ray<'a>(&self, source: &ConeAxis, rotation: f64, point: &'a DiskPoint) -> ConeRay<'a> {
         let (theta, phi) = disk::angles(point.tilt(source, 1.0));
         // The source stands opposite to the propagation; along the normal any azimuth will do.
         let azimuth = if theta == 0.0 { 0.0 } else { phi - PI };
-        Ray { incidence: Incidence::new(theta, rotation - azimuth), azimuth, point }
+        ConeRay { incidence: Incidence::new(theta, rotation - azimuth), azimuth, point }
     }
 
-    fn add(&self, ray: &Ray<'_>, viewer: &Beam, cosines: f64, out: &mut Mueller) {
+    fn add(&self, ray: &ConeRay<'_>, viewer: &ConeAxis, cosines: f64, out: &mut Mueller) {
         let (theta, phi) = disk::angles(ray.point.tilt(viewer, self.focal_point));
         let azimuth = phi - ray.azimuth;
         let azimuth = if self.mirrored { -azimuth } else { azimuth };
@@ -105,12 +105,12 @@ impl FocussedBeam {
 }
 
 impl Brdf for FocussedBeam {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
-    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
-        self.model.spots(incidence)
+    fn lobe_supports(&self, incidence: &Incidence) -> Vec<LobeSupport> {
+        self.model.lobe_supports(incidence)
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
@@ -121,11 +121,11 @@ impl Brdf for FocussedBeam {
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
         out.fill(Mueller::ZERO);
-        let source = Beam::new(incidence.sin, incidence.cos, 0.0, -1.0);
+        let source = ConeAxis::new(incidence.sin, incidence.cos, 0.0, -1.0);
         for point in &self.points {
             let ray = self.ray(&source, incidence.rotation(), point);
             for (m, d) in out.iter_mut().zip(directions) {
-                let viewer = Beam::new(d.sin, d.cos, d.sin_phi, d.cos_phi);
+                let viewer = ConeAxis::new(d.sin, d.cos, d.sin_phi, d.cos_phi);
                 self.add(&ray, &viewer, incidence.cos * d.cos, m);
             }
         }
@@ -138,13 +138,15 @@ impl Brdf for FocussedBeam {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, Mueller, Node, models, spec::Value};
+    use crate::{Basis, Geometry, Mode, Mueller, ParameterNode, models, spec::ParameterValue};
 
     #[test]
     fn a_parallel_beam_gives_the_model_in_every_basis() {
-        let beam = models::build(&Node::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
+        let beam =
+            models::build(&ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
         let inner = models::find("Microroughness_BRDF_Model").unwrap();
-        let inner = models::build(&Node::with_defaults(&inner.class, Mode::Sound)).unwrap();
+        let inner =
+            models::build(&ParameterNode::with_defaults(&inner.class, Mode::Sound)).unwrap();
         let at = Geometry { theta_i: 0.7, theta_s: 0.5, phi_s: 2.0, rotation: 0.4 };
         for basis in [Basis::Psps, Basis::Xyxy, Basis::Plane] {
             let (a, b) = (beam.mueller(&at, basis), inner.mueller(&at, basis));
@@ -155,8 +157,8 @@ mod tests {
     #[test]
     fn compat_mirrors_the_model_and_sound_does_not() {
         let build = |mode| {
-            let node = Node::with_defaults(&super::SPEC.class, mode);
-            models::build(&node.with("alpha", Value::Number(1e-6)).unwrap()).unwrap()
+            let node = ParameterNode::with_defaults(&super::SPEC.class, mode);
+            models::build(&node.with("alpha", ParameterValue::Number(1e-6)).unwrap()).unwrap()
         };
         let at = Geometry { theta_i: 0.7, theta_s: 0.5, phi_s: 2.0, rotation: 0.0 };
         let (sound, compat) = (build(Mode::Sound), build(Mode::Compat));
@@ -171,8 +173,8 @@ mod tests {
         let at = Geometry { theta_i: 0.0, theta_s: 0.5, phi_s: 2.0, rotation: 0.0 };
         for (mode, is_finite) in [(Mode::Sound, true), (Mode::Compat, false)] {
             // The third rule has a point in the middle of the cone.
-            let node = Node::with_defaults(&super::SPEC.class, mode);
-            let node = node.with("alpha", Value::Number(1.0)).unwrap();
+            let node = ParameterNode::with_defaults(&super::SPEC.class, mode);
+            let node = node.with("alpha", ParameterValue::Number(1.0)).unwrap();
             let m = models::build(&node).unwrap().mueller(&at, Basis::Psps);
             assert_eq!(m.0.iter().flatten().all(|x| x.is_finite()), is_finite, "{mode:?}");
         }
@@ -180,11 +182,11 @@ mod tests {
 
     #[test]
     fn a_narrow_cone_hardly_changes_a_smooth_model() {
-        let node = Node::with_defaults(&super::SPEC.class, Mode::Sound)
-            .with("alpha", Value::Number(0.01))
+        let node = ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)
+            .with("alpha", ParameterValue::Number(0.01))
             .unwrap();
         let parallel =
-            models::build(&Node::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
+            models::build(&ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
         let narrow = models::build(&node).unwrap();
         // Also at normal incidence, where the azimuths of the rays go all around.
         for theta_i in [0.0, 0.7] {

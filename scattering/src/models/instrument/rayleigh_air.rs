@@ -21,10 +21,10 @@ use std::f64::consts::PI;
 use num_complex::Complex64;
 
 use crate::{
-    Direction, Incidence, Jones, Mueller, ParamError,
-    models::{Brdf, COMMON, Common},
-    optics::film::{Films, Pair},
-    spec::{Class, Family, Laws, Param, Spec},
+    Direction, Incidence, Jones, Mueller, ParameterError,
+    models::{Brdf, COMMON, CommonParameters},
+    optics::film::{Films, SpAmplitudes},
+    spec::{Class, Family, Laws, Parameter, Spec},
     stack::Stack,
 };
 
@@ -39,26 +39,26 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         params: &[
             COMMON,
             &[
-                Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
-                Param::number("field_of_view", "1000", "um", "Width of the detector's view"),
-                Param::index("air", "1.0002748", "Index of the air"),
-                Param::number("number_density", "2.51E7", "1/um^3", "Molecules per volume"),
+                Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
+                Parameter::number("field_of_view", "1000", "um", "Width of the detector's view"),
+                Parameter::index("air", "1.0002748", "Index of the air"),
+                Parameter::number("number_density", "2.51E7", "1/um^3", "Molecules per volume"),
             ],
         ],
         laws: Laws { reciprocal: false, ..Laws::NOT_PASSIVE },
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         common.only_reflection("Rayleigh_Instrument_BRDF_Model")?;
         let films = node.member::<Stack>("stack")?.at(common.lambda);
         let width = node.number("field_of_view");
         let number = node.number("number_density");
         if !(number > 0.0 && number.is_finite()) {
             let problem = format!("{number} 1/um^3 is not a density of molecules");
-            return Err(ParamError::new("number_density", problem));
+            return Err(ParameterError::new("number_density", problem));
         }
         if !(width >= 0.0 && width.is_finite()) {
-            return Err(ParamError::new("field_of_view", format!("{width} um is not a width")));
+            return Err(ParameterError::new("field_of_view", format!("{width} um is not a width")));
         }
         let contrast = node.index("air").at(common.lambda).re - 1.0;
         let strength = 2.0 * (PI * contrast).powi(2) * width / (common.lambda.powi(4) * number);
@@ -70,7 +70,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 /// The air above a surface.
 #[derive(Clone, Debug)]
 pub struct RayleighAir {
-    common: Common,
+    common: CommonParameters,
     films: Films,
     /// 2π²(n−1)²w/(λ⁴N).
     strength: f64,
@@ -80,7 +80,7 @@ pub struct RayleighAir {
 const NEAREST: f64 = 1e-9;
 
 impl RayleighAir {
-    fn at(&self, before: Pair, incidence: &Incidence, direction: &Direction) -> Mueller {
+    fn at(&self, before: SpAmplitudes, incidence: &Incidence, direction: &Direction) -> Mueller {
         let after = self.films.r12(direction.sin.into());
         let (p, q) =
             (incidence.sin * direction.sin, incidence.cos * direction.cos * direction.cos_phi);
@@ -117,7 +117,7 @@ fn sine_between(sin: f64, cos: f64, direction: &Direction) -> f64 {
 }
 
 impl Brdf for RayleighAir {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
@@ -135,12 +135,14 @@ impl Brdf for RayleighAir {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, Node, models, optics::Index, spec::Value};
+    use crate::{
+        Basis, Geometry, Mode, ParameterNode, models, optics::RefractiveIndex, spec::ParameterValue,
+    };
 
     #[test]
     fn without_a_surface_light_at_a_right_angle_to_the_beam_has_no_p() {
-        let node = Node::with_defaults(&super::SPEC.class, Mode::Sound)
-            .with("substrate", Value::Index(Index::constant(1.0, 0.0)))
+        let node = ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)
+            .with("substrate", ParameterValue::Index(RefractiveIndex::constant(1.0, 0.0)))
             .unwrap();
         let theta = std::f64::consts::FRAC_PI_4;
         // The beam goes down along +x; 45° forward is at a right angle to it.
@@ -155,7 +157,8 @@ mod tests {
 
     #[test]
     fn a_view_along_the_beam_is_finite() {
-        let model = models::build(&Node::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
+        let model =
+            models::build(&ParameterNode::with_defaults(&super::SPEC.class, Mode::Sound)).unwrap();
         for phi_s in [0.0, std::f64::consts::PI] {
             let at = Geometry { theta_i: 0.5, theta_s: 0.5, phi_s, rotation: 0.0 };
             let m = model.mueller(&at, Basis::Psps);

@@ -31,49 +31,49 @@
 use std::{f64::consts::PI, slice};
 
 use crate::{
-    Basis, Defect, Direction, Incidence, Mueller, ParamError,
-    models::{Brdf, COMMON, Common},
-    spec::{Class, Kind, Laws, Param, Spec},
+    Basis, Defect, Direction, Incidence, Mueller, ParameterError,
+    models::{Brdf, COMMON, CommonParameters},
+    spec::{Class, Laws, Parameter, ParameterKind, Spec},
 };
 
 mod harmonics;
 mod line;
 
-use harmonics::Harmonics;
-use line::Line;
+use harmonics::ZernikeFunctions;
+use line::CoefficientLine;
 
-/// How programs name, parameterize and build a [`Zernike`].
+/// How programs name, parameterize and build a [`ZernikeExpansion`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "ZernikeExpansion_BRDF_Model",
         parent: "BRDF_Model",
-        summary: "Tabulated Mueller BRDF in products of Zernike functions",
+        summary: "Tabulated Mueller BRDF in products of ZernikeExpansion functions",
         equation: "F = scale B m, B and m sums of c lambda^p Z(source) Z(viewer)",
         source: "koenderink-1998 germer-2017",
         params: &[
             COMMON,
             &[
-                Param {
+                Parameter {
                     name: "coefficientfile",
-                    kind: Kind::File,
+                    kind: ParameterKind::File,
                     default: "",
                     unit: "",
                     doc: "Lines `i j n m k l p c`, separated by blanks or commas",
                 },
-                Param::table("scale", "1", "1", "Factor as a function of wavelength (um)"),
+                Parameter::table("scale", "1", "1", "Factor as a function of wavelength (um)"),
             ],
         ],
         laws: Laws::NONE,
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         common.only_reflection("ZernikeExpansion_BRDF_Model")?;
         let lines = line::read(node.text("coefficientfile"))
-            .map_err(|problem| ParamError::new("coefficientfile", problem))?;
-        let mut zernike = Zernike {
+            .map_err(|problem| ParameterError::new("coefficientfile", problem))?;
+        let mut zernike = ZernikeExpansion {
             common,
             scale: node.table("scale").at(common.lambda),
-            harmonics: Harmonics::default(),
+            harmonics: ZernikeFunctions::default(),
             products: Vec::new(),
         };
         for line in lines {
@@ -88,16 +88,16 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 /// A BRDF as a sum of products of Zernike functions.
 #[derive(Clone, Debug)]
-pub struct Zernike {
-    common: Common,
+pub struct ZernikeExpansion {
+    common: CommonParameters,
     scale: f64,
-    harmonics: Harmonics,
-    products: Vec<Product>,
+    harmonics: ZernikeFunctions,
+    products: Vec<ZernikeProduct>,
 }
 
 /// weight · Z_source · Z_viewer, added to element (row, column); B stands at (0, 0).
 #[derive(Clone, Copy, Debug)]
-struct Product {
+struct ZernikeProduct {
     row: usize,
     column: usize,
     source: usize,
@@ -105,9 +105,9 @@ struct Product {
     weight: f64,
 }
 
-impl Zernike {
-    fn add(&mut self, line: &Line, strength: f64) {
-        let Line { i, j, n, m, k, l, .. } = *line;
+impl ZernikeExpansion {
+    fn add(&mut self, line: &CoefficientLine, strength: f64) {
+        let CoefficientLine { i, j, n, m, k, l, .. } = *line;
         let root = f64::from((n + 1) * (m + 1)).sqrt() / PI * strength;
         if (i, j) == (1, 1) {
             return self.add_unpolarized(n, m, l, 0.5 * root);
@@ -145,7 +145,7 @@ impl Zernike {
         let (row, column) = (i - 1, j - 1);
         let turned = matches!((row, column), (2, 0) | (2, 1) | (3, 2));
         let weight = if turned { -weight } else { weight };
-        self.products.push(Product { row, column, source, viewer, weight });
+        self.products.push(ZernikeProduct { row, column, source, viewer, weight });
     }
 
     fn sum(&self, source: &[f64], viewer: &[f64]) -> Mueller {
@@ -160,8 +160,8 @@ impl Zernike {
     }
 }
 
-impl Brdf for Zernike {
-    fn common(&self) -> &Common {
+impl Brdf for ZernikeExpansion {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
@@ -190,11 +190,13 @@ impl Brdf for Zernike {
 #[cfg(test)]
 mod tests {
     use super::SPEC;
-    use crate::{Basis, Geometry, Mode, Model, Node, ParamError, models, spec::Value};
+    use crate::{
+        Basis, Geometry, Mode, Model, ParameterError, ParameterNode, models, spec::ParameterValue,
+    };
 
-    fn model(text: &str, mode: Mode) -> Result<Model, ParamError> {
-        let node = Node::with_defaults(&SPEC.class, mode);
-        models::build(&node.with("coefficientfile", Value::Text(text.into())).unwrap())
+    fn model(text: &str, mode: Mode) -> Result<Model, ParameterError> {
+        let node = ParameterNode::with_defaults(&SPEC.class, mode);
+        models::build(&node.with("coefficientfile", ParameterValue::Text(text.into())).unwrap())
     }
 
     const AT: Geometry = Geometry { theta_i: 0.9, theta_s: 0.4, phi_s: 1.2, rotation: 0.3 };

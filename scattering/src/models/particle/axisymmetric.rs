@@ -10,13 +10,13 @@
 
 use super::{
     LOCAL,
-    supported::{Ground, INTERACTION, Supported},
+    supported::{INTERACTION, SubstrateFace, SupportedParticle},
 };
 use crate::{
-    Defect, Node, ParamError,
+    Defect, ParameterError, ParameterNode,
     models::{Brdf, COMMON, diffuse::INTERFACE},
     shape::Shape,
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
     tmatrix::{self, BODY, MULTIPOLES},
 };
 
@@ -26,12 +26,12 @@ const SOURCE: &str = "waterman-1971 bobbert-vlieger-1986 mishchenko-2002";
 /// Interchange of beams holds up to the number of nodes of the image's integral only.
 const LAWS: Laws = Laws { reciprocal: false, ..Laws::NOT_PASSIVE };
 
-const PARAMS: &[&[Param]] = &[
+const PARAMS: &[&[Parameter]] = &[
     COMMON,
     LOCAL,
     &BODY,
     INTERFACE,
-    &[Param::number("delta", "0", "um", "Gap between the particle and the face")],
+    &[Parameter::number("delta", "0", "um", "Gap between the particle and the face")],
     &MULTIPOLES,
     &INTERACTION,
 ];
@@ -64,16 +64,19 @@ pub const SUBSURFACE: Spec<dyn Brdf> = Spec {
     build: |node| Ok(Box::new(build(node, true)?)),
 };
 
-fn build(node: &Node, buried: bool) -> Result<Supported, ParamError> {
-    let ground = Ground::read(node, buried)?;
+fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, ParameterError> {
+    let ground = SubstrateFace::read(node, buried)?;
     let shape = node.member::<Shape>("Shape")?;
     let index = node.index("particle").at(ground.common().lambda);
     if !(index.norm() > 0.0 && index.is_finite()) {
-        return Err(ParamError::new("particle", format!("{index} is not an index of refraction")));
+        return Err(ParameterError::new(
+            "particle",
+            format!("{index} is not an index of refraction"),
+        ));
     }
     let particle = tmatrix::read(node, &shape, index / ground.medium, ground.k)?;
     let (l_max, incomplete) = (particle.l_max, particle.m_max() < particle.l_max);
-    let supported = Supported::new(ground, &particle, shape.height(), l_max)?;
+    let supported = SupportedParticle::new(ground, &particle, shape.height(), l_max)?;
     if incomplete && node.reproduces(Defect::AxisymmetricIndex) {
         return Ok(supported.mispairing());
     }

@@ -11,13 +11,13 @@
 
 use super::{
     LOCAL,
-    supported::{Ground, INTERACTION, Supported},
+    supported::{INTERACTION, SubstrateFace, SupportedParticle},
 };
 use crate::{
-    Node, ParamError,
+    ParameterError, ParameterNode,
     models::{Brdf, COMMON, diffuse::INTERFACE},
     scatterer::{layered, positive, series},
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
     stack::Stack,
     tmatrix::{TMatrix, l_max},
 };
@@ -28,13 +28,13 @@ const SOURCE: &str = "bobbert-vlieger-1986 kim-2002";
 /// Interchange of beams holds up to the number of nodes of the image's integral only.
 const LAWS: Laws = Laws { reciprocal: false, ..Laws::NOT_PASSIVE };
 
-const PARAMS: &[&[Param]] = &[
+const PARAMS: &[&[Parameter]] = &[
     COMMON,
     LOCAL,
     &[
-        Param::index("sphere", "(1.59,0)", "Index of the sphere"),
-        Param::number("radius", "0.05", "um", "Outer radius of the sphere"),
-        Param::member(
+        Parameter::index("sphere", "(1.59,0)", "Index of the sphere"),
+        Parameter::number("radius", "0.05", "um", "Outer radius of the sphere"),
+        Parameter::member(
             "spherecoat",
             Family::Stack,
             "StackModel",
@@ -44,8 +44,12 @@ const PARAMS: &[&[Param]] = &[
     ],
     INTERFACE,
     &[
-        Param::number("delta", "0", "um", "Gap between the sphere and the face"),
-        Param::integer("lmax", "0", "Largest l: 0 as the size needs, -n that and n more, n just n"),
+        Parameter::number("delta", "0", "um", "Gap between the sphere and the face"),
+        Parameter::integer(
+            "lmax",
+            "0",
+            "Largest l: 0 as the size needs, -n that and n more, n just n",
+        ),
     ],
     &INTERACTION,
 ];
@@ -78,20 +82,20 @@ pub const SUBSURFACE: Spec<dyn Brdf> = Spec {
     build: |node| Ok(Box::new(build(node, true)?)),
 };
 
-fn build(node: &Node, buried: bool) -> Result<Supported, ParamError> {
-    let ground = Ground::read(node, buried)?;
+fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, ParameterError> {
+    let ground = SubstrateFace::read(node, buried)?;
     let lambda = ground.common().lambda;
     let radius = positive(node, "radius")?;
     let relative = |name: &str, n: num_complex::Complex64| {
         if n.norm() > 0.0 && n.is_finite() {
             return Ok(n / ground.medium);
         }
-        Err(ParamError::new(name, format!("{n} is not an index of refraction")))
+        Err(ParameterError::new(name, format!("{n} is not an index of refraction")))
     };
     let coats = node.member::<Stack>("spherecoat")?.at(lambda);
     let mut r = radius - coats.iter().map(|coat| coat.1).sum::<f64>();
     if r < 0.0 || r.is_nan() {
-        return Err(ParamError::new("spherecoat", format!("does not fit in {radius} um")));
+        return Err(ParameterError::new("spherecoat", format!("does not fit in {radius} um")));
     }
     let mut layers = vec![(relative("sphere", node.index("sphere").at(lambda))?, ground.k * r)];
     for (index, thickness) in coats {
@@ -101,5 +105,5 @@ fn build(node: &Node, buried: bool) -> Result<Supported, ParamError> {
     let needed = series::terms(ground.k * radius);
     let l_max = l_max(node, needed)?;
     let sphere = TMatrix::sphere(&layered::coefficients(&layers, l_max));
-    Supported::new(ground, &sphere, radius, needed)
+    SupportedParticle::new(ground, &sphere, radius, needed)
 }

@@ -24,18 +24,21 @@ use num_complex::Complex64;
 
 use super::{
     LOCAL,
-    paths::{Beam, Bounce, ORIENTATION, Paths, Placed, nudged},
+    paths::{
+        FaceReflection, InteractionPaths, ORIENTATION, OrientedParticle, PolarizedBeam, nudged,
+    },
     small_sphere::not_negative,
 };
 use crate::{
-    Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side, Value,
+    Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode, ParameterValue,
+    Side,
     models::{
-        Brdf, COMMON, Common,
+        Brdf, COMMON, CommonParameters,
         diffuse::{INTERFACE, interface},
     },
-    optics::{Index, film::Films},
+    optics::{RefractiveIndex, film::Films},
     scatterer::Scatterer,
-    spec::{self, Class, Family, Laws, Param, Spec},
+    spec::{self, Class, Family, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`DoubleInteraction`].
@@ -51,8 +54,13 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             LOCAL,
             INTERFACE,
             &[
-                Param::number("distance", "0.05", "um", "Distance of the centre from the surface"),
-                Param::member(
+                Parameter::number(
+                    "distance",
+                    "0.05",
+                    "um",
+                    "Distance of the centre from the surface",
+                ),
+                Parameter::member(
                     "scatterer",
                     Family::Scatterer,
                     "Free_Space_Scatterer",
@@ -70,26 +78,26 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 /// A particle above a surface.
 pub struct DoubleInteraction {
-    above: Above,
-    particle: Placed,
+    above: HalfSpace,
+    particle: OrientedParticle,
     distance: f64,
     density: f64,
 }
 
 impl DoubleInteraction {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let above = Above::read(node)?;
-        let vacuum = Value::Index(Index::constant(1.0, 0.0));
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let above = HalfSpace::read(node)?;
+        let vacuum = ParameterValue::Index(RefractiveIndex::constant(1.0, 0.0));
         let particle = node
             .child("scatterer")
             .clone()
-            .with("lambda", Value::Number(above.common.lambda))
+            .with("lambda", ParameterValue::Number(above.common.lambda))
             .and_then(|particle| particle.with("medium", vacuum))
             .and_then(|particle| spec::build::<dyn Scatterer>(&particle))
             .map_err(|error| error.inside("scatterer"))?;
         Ok(Self {
             above,
-            particle: Placed::read(node, particle)?,
+            particle: OrientedParticle::read(node, particle)?,
             distance: not_negative(node, "distance")?,
             density: not_negative(node, "density")?,
         })
@@ -105,7 +113,7 @@ impl DoubleInteraction {
 }
 
 impl Brdf for DoubleInteraction {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.above.common
     }
 
@@ -123,8 +131,8 @@ impl Brdf for DoubleInteraction {
 }
 
 /// The space above a surface, from which particles are seen by way of its reflection.
-pub(super) struct Above {
-    pub common: Common,
+pub(super) struct HalfSpace {
+    pub common: CommonParameters,
     films: Films,
     n: f64,
     /// Wave number in vacuum.
@@ -134,9 +142,9 @@ pub(super) struct Above {
     normal_is_y: bool,
 }
 
-impl Above {
-    pub(super) fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+impl HalfSpace {
+    pub(super) fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         let mut films = interface(node, &common, common.substrate)?;
         if common.side != Side::DownUp && node.reproduces(Defect::TinyLoss) {
             films = films.with_tiny_loss();
@@ -157,7 +165,7 @@ impl Above {
         &self,
         incidence: &Incidence,
         direction: &Direction,
-    ) -> Option<(Incidence, Paths)> {
+    ) -> Option<(Incidence, InteractionPaths)> {
         let side = self.common.side;
         let (i, s) = if self.nudges {
             nudged(incidence, direction, side == Side::DownUp)
@@ -171,7 +179,11 @@ impl Above {
         let k_i = along(incoming.sin, 1.0, 0.0, up(side.from_below(), incoming.cos));
         let k_s = along(outgoing.sin, s.cos_phi, s.sin_phi, up(!side.to_below(), outgoing.cos));
         let s_out = if self.normal_is_y { s.nists_s() } else { s.s() };
-        let mut paths = Paths::new(Beam::new(k_i, i.s()), Beam::new(k_s, s_out), self.k0);
+        let mut paths = InteractionPaths::new(
+            PolarizedBeam::new(k_i, i.s()),
+            PolarizedBeam::new(k_s, s_out),
+            self.k0,
+        );
         if side.from_below() {
             paths.t_in = self.films.t21(self.films.kappa_inside(i.sin));
         } else {
@@ -192,26 +204,26 @@ impl Above {
     }
 
     /// The same beam outside, where it is not there already.
-    fn outside(&self, sin: f64, cos: f64, inside: bool) -> Option<Outside> {
+    fn outside(&self, sin: f64, cos: f64, inside: bool) -> Option<ExternalBeam> {
         if !inside {
-            return Some(Outside { sin, cos, detour: 0.0 });
+            return Some(ExternalBeam { sin, cos, detour: 0.0 });
         }
         let sine = self.n * sin;
         let squared = 1.0 - sine * sine;
         (squared > 0.0).then(|| {
             let cosine = squared.sqrt();
-            Outside { sin: sine, cos: cosine, detour: cosine - self.n * cos }
+            ExternalBeam { sin: sine, cos: cosine, detour: cosine - self.n * cos }
         })
     }
 
-    fn bounce(&self, beam: &Outside) -> Bounce {
+    fn bounce(&self, beam: &ExternalBeam) -> FaceReflection {
         let r = self.films.r12(Complex64::from(beam.sin));
-        Bounce { r, phase: 2.0 * self.k0 * beam.cos }
+        FaceReflection { r, phase: 2.0 * self.k0 * beam.cos }
     }
 }
 
 /// A beam outside, and by how much its path to a unit height exceeds the one inside.
-struct Outside {
+struct ExternalBeam {
     sin: f64,
     cos: f64,
     detour: f64,
@@ -224,19 +236,19 @@ mod tests {
     use super::*;
     use crate::{Basis, Geometry, Mode, models};
 
-    fn index(n: f64, k: f64) -> Value {
-        Value::Index(Index::constant(n, k))
+    fn index(n: f64, k: f64) -> ParameterValue {
+        ParameterValue::Index(RefractiveIndex::constant(n, k))
     }
 
     fn build(mode: Mode, side: i32, substrate: (f64, f64)) -> models::Model {
-        let particle = Node::with_defaults(&crate::scatterer::mie::SPEC.class, mode)
-            .with("radius", Value::Number(0.2))
+        let particle = ParameterNode::with_defaults(&crate::scatterer::mie::SPEC.class, mode)
+            .with("radius", ParameterValue::Number(0.2))
             .unwrap();
-        let node = Node::with_defaults(&SPEC.class, mode)
+        let node = ParameterNode::with_defaults(&SPEC.class, mode)
             .with("substrate", index(substrate.0, substrate.1))
-            .and_then(|node| node.with("type", Value::Integer(side)))
-            .and_then(|node| node.with("distance", Value::Number(0.3)))
-            .and_then(|node| node.with("scatterer", Value::Member(Arc::new(particle))))
+            .and_then(|node| node.with("type", ParameterValue::Integer(side)))
+            .and_then(|node| node.with("distance", ParameterValue::Number(0.3)))
+            .and_then(|node| node.with("scatterer", ParameterValue::Member(Arc::new(particle))))
             .unwrap();
         models::build(&node).unwrap()
     }
@@ -248,8 +260,8 @@ mod tests {
     #[test]
     fn over_vacuum_reflection_and_transmission_are_those_of_the_lone_particle() {
         let [reflection, transmission] = [0, 1].map(|side| build(Mode::Sound, side, (1.0, 0.0)));
-        let sphere = Node::with_defaults(&crate::scatterer::mie::SPEC.class, Mode::Sound)
-            .with("radius", Value::Number(0.2))
+        let sphere = ParameterNode::with_defaults(&crate::scatterer::mie::SPEC.class, Mode::Sound)
+            .with("radius", ParameterValue::Number(0.2))
             .unwrap();
         let sphere = spec::build::<dyn Scatterer>(&sphere).unwrap();
         let (k, cosines) = (TAU / 0.532, 0.3f64.cos() * 0.8f64.cos());

@@ -11,12 +11,12 @@
 
 use super::{
     LOCAL,
-    small_sphere::{Place, SmallSphere},
+    small_sphere::{SmallSphere, SpherePosition},
 };
 use crate::{
-    ParamError,
-    models::{Brdf, COMMON, Common},
-    spec::{Class, Laws, Param, Spec},
+    ParameterError,
+    models::{Brdf, COMMON, CommonParameters},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -31,28 +31,31 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             LOCAL,
             &[
-                Param::number("radius", "0.01", "um", "Radius of the sphere"),
-                Param::index("defect", "(1,0)", "Index of the sphere"),
-                Param::index("film", "(1.59,0)", "Index of the film"),
-                Param::number("tau", "0.05", "um", "Thickness of the film"),
-                Param::number("depth", "0", "um", "Depth of the centre below the outer face"),
+                Parameter::number("radius", "0.01", "um", "Radius of the sphere"),
+                Parameter::index("defect", "(1,0)", "Index of the sphere"),
+                Parameter::index("film", "(1.59,0)", "Index of the film"),
+                Parameter::number("tau", "0.05", "um", "Thickness of the film"),
+                Parameter::number("depth", "0", "um", "Depth of the centre below the outer face"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         common.only_reflection("OneLayer_BRDF_Model")?;
         let (tau, depth) = (node.number("tau"), node.number("depth"));
         if !(tau >= 0.0 && tau.is_finite()) {
-            return Err(ParamError::new("tau", format!("{tau} um is not the thickness of a film")));
+            return Err(ParameterError::new(
+                "tau",
+                format!("{tau} um is not the thickness of a film"),
+            ));
         }
         if !(0.0..=tau).contains(&depth) {
             let problem = format!("{depth} um is not in the film, 0 to {tau} um");
-            return Err(ParamError::new("depth", problem));
+            return Err(ParameterError::new("depth", problem));
         }
         let film = node.index("film").at(common.lambda);
-        let place = Place { depth, medium: film };
+        let place = SpherePosition { depth, medium: film };
         let defect = node.index("defect").at(common.lambda);
         Ok(Box::new(SmallSphere::new(node, common, &[(film, tau)], place, defect)?))
     },

@@ -14,62 +14,65 @@ use glam::{DMat3, DVec3};
 use num_complex::Complex64;
 
 use crate::{
-    Direction, Incidence, Jones, Node, ParamError,
-    optics::film::Pair,
-    polarization::Frame,
-    scatterer::{PlaneTurn, Scatterer},
-    spec::Param,
+    Direction, Incidence, Jones, ParameterError, ParameterNode,
+    optics::film::SpAmplitudes,
+    polarization::TransverseFrame,
+    scatterer::{Scatterer, ScatteringPlaneRotation},
+    spec::Parameter,
 };
 
 /// The parameters that turn a particle.
-pub(super) const ORIENTATION: [Param; 2] = [
-    Param::number("alpha", "0", "rad", "First Euler angle of the particle"),
-    Param::number("beta", "0", "rad", "Second Euler angle of the particle"),
+pub(super) const ORIENTATION: [Parameter; 2] = [
+    Parameter::number("alpha", "0", "rad", "First Euler angle of the particle"),
+    Parameter::number("beta", "0", "rad", "Second Euler angle of the particle"),
 ];
 
 /// A beam with its s and p vectors.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Beam {
+pub(super) struct PolarizedBeam {
     pub k: DVec3,
-    pub frame: Frame,
+    pub frame: TransverseFrame,
 }
 
-impl Beam {
+impl PolarizedBeam {
     /// The beam along `k` with this s.
     pub(super) fn new(k: DVec3, s: DVec3) -> Self {
-        Self { k, frame: Frame::with_s(k, s) }
+        Self { k, frame: TransverseFrame::with_s(k, s) }
     }
 
     /// The beam mirrored at the face: the same s, p = k × s.
     fn mirrored(&self) -> Self {
         let k = DVec3::new(self.k.x, self.k.y, -self.k.z);
         let first = self.frame.first;
-        Self { k, frame: Frame { first, second: k.cross(first) } }
+        Self { k, frame: TransverseFrame { first, second: k.cross(first) } }
     }
 
     fn turned(&self, turn: &DMat3) -> Self {
-        let Frame { first, second } = self.frame;
-        Self { k: *turn * self.k, frame: Frame { first: *turn * first, second: *turn * second } }
+        let TransverseFrame { first, second } = self.frame;
+        Self {
+            k: *turn * self.k,
+            frame: TransverseFrame { first: *turn * first, second: *turn * second },
+        }
     }
 }
 
 /// A reflection on the way, with the phase of the detour per µm of distance from the face.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounce {
-    pub r: Pair,
+pub(super) struct FaceReflection {
+    pub r: SpAmplitudes,
     pub phase: f64,
 }
 
-impl Bounce {
-    fn at(&self, distance: f64) -> Pair {
+impl FaceReflection {
+    fn at(&self, distance: f64) -> SpAmplitudes {
         let turn = Complex64::cis(self.phase * distance);
-        Pair { s: self.r.s * turn, p: self.r.p * turn }
+        SpAmplitudes { s: self.r.s * turn, p: self.r.p * turn }
     }
 }
 
 /// One of the four paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Path {
+pub(super) enum InteractionPath {
     /// No reflection.
     Straight,
     /// The light is reflected before it meets the particle.
@@ -80,31 +83,31 @@ pub(super) enum Path {
     Both,
 }
 
-impl Path {
+impl InteractionPath {
     pub(super) const ALL: [Self; 4] = [Self::Straight, Self::Before, Self::After, Self::Both];
 }
 
 /// What the light meets on its paths, for one pair of directions.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Paths {
-    pub incoming: Beam,
-    pub outgoing: Beam,
-    pub before: Option<Bounce>,
-    pub after: Option<Bounce>,
+pub(super) struct InteractionPaths {
+    pub incoming: PolarizedBeam,
+    pub outgoing: PolarizedBeam,
+    pub before: Option<FaceReflection>,
+    pub after: Option<FaceReflection>,
     /// Crossing of the face on the way in.
-    pub t_in: Pair,
+    pub t_in: SpAmplitudes,
     /// Crossing of the face on the way out.
-    pub t_out: Pair,
+    pub t_out: SpAmplitudes,
     /// Real factor of all paths, with 1/k of the medium of the particle.
     pub scale: f64,
     /// Phase of all paths per µm of distance.
     pub phase: f64,
 }
 
-impl Paths {
+impl InteractionPaths {
     /// Paths that cross no face and bounce nowhere, scattered in a medium of wave number `k`.
-    pub(super) fn new(incoming: Beam, outgoing: Beam, k: f64) -> Self {
-        let one = Pair { s: Complex64::ONE, p: Complex64::ONE };
+    pub(super) fn new(incoming: PolarizedBeam, outgoing: PolarizedBeam, k: f64) -> Self {
+        let one = SpAmplitudes { s: Complex64::ONE, p: Complex64::ONE };
         Self {
             incoming,
             outgoing,
@@ -118,23 +121,23 @@ impl Paths {
     }
 
     /// The beams that the particle sees on a path.
-    fn beams(&self, path: Path) -> (Beam, Beam) {
+    fn beams(&self, path: InteractionPath) -> (PolarizedBeam, PolarizedBeam) {
         let (i, s) = (self.incoming, self.outgoing);
         match path {
-            Path::Straight => (i, s),
-            Path::Before => (i.mirrored(), s),
-            Path::After => (i, s.mirrored()),
-            Path::Both => (i.mirrored(), s.mirrored()),
+            InteractionPath::Straight => (i, s),
+            InteractionPath::Before => (i.mirrored(), s),
+            InteractionPath::After => (i, s.mirrored()),
+            InteractionPath::Both => (i.mirrored(), s.mirrored()),
         }
     }
 
     /// Whether light goes this way.
-    pub(super) fn is_open(&self, path: Path) -> bool {
+    pub(super) fn is_open(&self, path: InteractionPath) -> bool {
         match path {
-            Path::Straight => true,
-            Path::Before => self.before.is_some(),
-            Path::After => self.after.is_some(),
-            Path::Both => self.before.is_some() && self.after.is_some(),
+            InteractionPath::Straight => true,
+            InteractionPath::Before => self.before.is_some(),
+            InteractionPath::After => self.after.is_some(),
+            InteractionPath::Both => self.before.is_some() && self.after.is_some(),
         }
     }
 
@@ -145,24 +148,24 @@ impl Paths {
     }
 
     /// The turns into and out of the scattering plane of a path.
-    pub(super) fn plane_turn(&self, path: Path) -> PlaneTurn {
+    pub(super) fn plane_turn(&self, path: InteractionPath) -> ScatteringPlaneRotation {
         let (i, s) = self.beams(path);
-        PlaneTurn::new(i.k, s.k, &i.frame, &s.frame)
+        ScatteringPlaneRotation::new(i.k, s.k, &i.frame, &s.frame)
     }
 
     /// J with M(J) the differential cross-section, at a distance from the face, of a particle
     /// with the matrix `scatter(path)`.
-    pub(super) fn jones(&self, distance: f64, scatter: impl Fn(Path) -> Jones) -> Jones {
+    pub(super) fn jones(&self, distance: f64, scatter: impl Fn(InteractionPath) -> Jones) -> Jones {
         let before = self.before.map(|bounce| bounce.at(distance));
         let after = self.after.map(|bounce| bounce.at(distance));
-        let mut total = scatter(Path::Straight);
+        let mut total = scatter(InteractionPath::Straight);
         if let Some(r) = before {
-            total = total + first(r, scatter(Path::Before));
+            total = total + first(r, scatter(InteractionPath::Before));
         }
         if let Some(r) = after {
-            let mut rest = scatter(Path::After);
+            let mut rest = scatter(InteractionPath::After);
             if let Some(earlier) = before {
-                rest = rest + first(earlier, scatter(Path::Both));
+                rest = rest + first(earlier, scatter(InteractionPath::Both));
             }
             total = total + last(r, rest);
         }
@@ -172,32 +175,35 @@ impl Paths {
 }
 
 /// J after the diagonal matrix `d`.
-fn first(d: Pair, j: Jones) -> Jones {
+fn first(d: SpAmplitudes, j: Jones) -> Jones {
     Jones { ss: j.ss * d.s, ps: j.ps * d.p, sp: j.sp * d.s, pp: j.pp * d.p }
 }
 
 /// The diagonal matrix `d` after J.
-fn last(d: Pair, j: Jones) -> Jones {
+fn last(d: SpAmplitudes, j: Jones) -> Jones {
     Jones { ss: j.ss * d.s, ps: j.ps * d.s, sp: j.sp * d.p, pp: j.pp * d.p }
 }
 
-/// Whether a path has an odd number of reflections, as an index of [`Paths::cosines`].
-pub(super) fn parity(path: Path) -> usize {
-    usize::from(matches!(path, Path::Before | Path::After))
+/// Whether a path has an odd number of reflections, as an index of [`InteractionPaths::cosines`].
+pub(super) fn parity(path: InteractionPath) -> usize {
+    usize::from(matches!(path, InteractionPath::Before | InteractionPath::After))
 }
 
 /// A particle in its orientation.
-pub(super) struct Placed {
+pub(super) struct OrientedParticle {
     particle: Box<dyn Scatterer>,
     euler: DMat3,
 }
 
-impl Placed {
+impl OrientedParticle {
     /// The particle with the node's `alpha` and `beta`.
-    pub(super) fn read(node: &Node, particle: Box<dyn Scatterer>) -> Result<Self, ParamError> {
+    pub(super) fn read(
+        node: &ParameterNode,
+        particle: Box<dyn Scatterer>,
+    ) -> Result<Self, ParameterError> {
         let angle = |name| {
             let value = node.number(name);
-            let problem = || ParamError::new(name, format!("{value} is not an angle"));
+            let problem = || ParameterError::new(name, format!("{value} is not an angle"));
             if value.is_finite() { Ok(value.sin_cos()) } else { Err(problem()) }
         };
         let ((sin_a, cos_a), (sin_b, cos_b)) = (angle("alpha")?, angle("beta")?);
@@ -210,7 +216,12 @@ impl Placed {
     }
 
     /// J with M(J) the differential cross-section in µm²/sr.
-    pub(super) fn jones(&self, paths: &Paths, incidence: &Incidence, distance: f64) -> Jones {
+    pub(super) fn jones(
+        &self,
+        paths: &InteractionPaths,
+        incidence: &Incidence,
+        distance: f64,
+    ) -> Jones {
         if let Some(round) = self.particle.round() {
             let [even, odd] = paths.cosines();
             let bounces = paths.before.is_some() || paths.after.is_some();

@@ -16,19 +16,19 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use num_complex::Complex64;
 
 use super::{
-    double_interaction::Above,
-    paths::{Path, Paths, parity},
+    double_interaction::HalfSpace,
+    paths::{InteractionPath, InteractionPaths, parity},
 };
 use crate::{
-    Direction, Incidence, Jones, Mueller, Node, ParamError,
-    models::{Brdf, COMMON, Common, diffuse::INTERFACE},
+    Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode,
+    models::{Brdf, COMMON, CommonParameters, diffuse::INTERFACE},
     scatterer::{
-        Surroundings,
+        HostMedium,
         mie::Mie,
-        series::{AngularFunctions, Series, terms},
+        series::{AngularFunctions, MieSeries, terms},
     },
     size::{self, SurfaceSize},
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build [`PolydisperseSphere`]s.
@@ -41,7 +41,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         source: "nahm-wolfe-1987",
         params: &[
             COMMON,
-            &[Param::member(
+            &[Parameter::member(
                 "distribution",
                 Family::SurfaceSize,
                 "SurfaceParticleSizeDistribution",
@@ -50,17 +50,17 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             )],
             INTERFACE,
             &[
-                Param::index("particle", "(1.5,0.0)", "Index of the spheres"),
-                Param::number("Dstart", "1", "um", "Smallest diameter"),
-                Param::number("Dend", "1000", "um", "Largest diameter"),
-                Param::number("Dstep", "0.01", "1", "Step of the diameter over the diameter"),
-                Param::number(
+                Parameter::index("particle", "(1.5,0.0)", "Index of the spheres"),
+                Parameter::number("Dstart", "1", "um", "Smallest diameter"),
+                Parameter::number("Dend", "1000", "um", "Largest diameter"),
+                Parameter::number("Dstep", "0.01", "1", "Step of the diameter over the diameter"),
+                Parameter::number(
                     "fractional_coverage",
                     "0",
                     "1",
                     "Covered fraction of the area, or 0",
                 ),
-                Param::number("antirainbow", "0", "1", "Least absorption over a diameter"),
+                Parameter::number("antirainbow", "0", "1", "Least absorption over a diameter"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,
@@ -73,30 +73,30 @@ const MOST_TERMS: usize = 30_000_000;
 
 /// Spheres on a surface.
 pub struct PolydisperseSphere {
-    above: Above,
-    spheres: Vec<Sphere>,
+    above: HalfSpace,
+    spheres: Vec<SizeClass>,
     /// Terms of the longest series.
     longest: usize,
 }
 
-struct Sphere {
+struct SizeClass {
     /// Number per area.
     number: f64,
     diameter: f64,
-    series: Series,
+    series: MieSeries,
 }
 
 impl PolydisperseSphere {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let above = Above::read(node)?;
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let above = HalfSpace::read(node)?;
         let mut spheres = spheres(node, &above.common)?;
         let coverage = node.number("fractional_coverage");
         if coverage != 0.0 {
-            let area = |s: &Sphere| s.number * FRAC_PI_4 * s.diameter * s.diameter;
+            let area = |s: &SizeClass| s.number * FRAC_PI_4 * s.diameter * s.diameter;
             let covered: f64 = spheres.iter().map(area).sum();
             if !(coverage > 0.0 && coverage <= 1.0 && covered > 0.0) {
                 let problem = format!("{coverage} of the area is not to be covered");
-                return Err(ParamError::new("fractional_coverage", problem));
+                return Err(ParameterError::new("fractional_coverage", problem));
             }
             for sphere in &mut spheres {
                 sphere.number *= coverage / covered;
@@ -107,11 +107,12 @@ impl PolydisperseSphere {
     }
 
     /// Σ number M(J).
-    fn sum(&self, paths: &Paths) -> Mueller {
+    fn sum(&self, paths: &InteractionPaths) -> Mueller {
         let angular = paths
             .cosines()
             .map(|cos| AngularFunctions::new(cos).take(self.longest).collect::<Vec<_>>());
-        let turns = Path::ALL.map(|path| paths.is_open(path).then(|| paths.plane_turn(path)));
+        let turns =
+            InteractionPath::ALL.map(|path| paths.is_open(path).then(|| paths.plane_turn(path)));
         let mut total = Mueller::ZERO;
         for sphere in &self.spheres {
             let amplitudes = [&angular[0], &angular[1]].map(|angular| {
@@ -129,9 +130,12 @@ impl PolydisperseSphere {
 }
 
 /// The spheres of all sizes with their numbers.
-fn spheres(node: &Node, common: &Common) -> Result<Vec<Sphere>, ParamError> {
+fn spheres(
+    node: &ParameterNode,
+    common: &CommonParameters,
+) -> Result<Vec<SizeClass>, ParameterError> {
     let numbers = node.member::<dyn SurfaceSize>("distribution")?;
-    let around = Surroundings { lambda: common.lambda, medium: Complex64::ONE };
+    let around = HostMedium { lambda: common.lambda, medium: Complex64::ONE };
     let index = around.relative_index(node, "particle")?;
     let damping = node.number("antirainbow");
     let mut spheres = Vec::new();
@@ -142,30 +146,33 @@ fn spheres(node: &Node, common: &Common) -> Result<Vec<Sphere>, ParamError> {
         }
         let k = index.im.max(damping * common.lambda / (4.0 * PI * d));
         let sphere = Mie::homogeneous(node, around, Complex64::new(index.re, k), 0.5 * d);
-        spheres.push(Sphere { number, diameter: d, series: sphere.into_series() });
+        spheres.push(SizeClass { number, diameter: d, series: sphere.into_series() });
     }
     Ok(spheres)
 }
 
 /// Diameters with their widths, unless they are too many.
-fn ladder(node: &Node, k: f64) -> Result<impl Iterator<Item = (f64, f64)> + use<>, ParamError> {
+fn ladder(
+    node: &ParameterNode,
+    k: f64,
+) -> Result<impl Iterator<Item = (f64, f64)> + use<>, ParameterError> {
     let [start, end, step] = ["Dstart", "Dend", "Dstep"].map(|name| node.number(name));
     if !size::is_ladder(start, end, step) {
         let problem = format!("{start} um to {end} um in steps of {step} is no range of diameters");
-        return Err(ParamError::new("Dstep", problem));
+        return Err(ParameterError::new("Dstep", problem));
     }
     let mut total = 0;
     for (d, _) in size::ladder(start, end, step) {
         total += terms(0.5 * k * d);
         if total > MOST_TERMS {
-            return Err(ParamError::new("Dend", "too many and too large spheres"));
+            return Err(ParameterError::new("Dend", "too many and too large spheres"));
         }
     }
     Ok(size::ladder(start, end, step))
 }
 
 impl Brdf for PolydisperseSphere {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.above.common
     }
 
@@ -182,12 +189,12 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{Basis, Geometry, Mode, Value, models, optics::Index};
+    use crate::{Basis, Geometry, Mode, ParameterValue, models, optics::RefractiveIndex};
 
     fn build(values: &[(&str, f64)]) -> models::Model {
-        let mut node = Node::with_defaults(&SPEC.class, Mode::Sound);
+        let mut node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound);
         for (name, value) in values {
-            node = node.with(name, Value::Number(*value)).unwrap();
+            node = node.with(name, ParameterValue::Number(*value)).unwrap();
         }
         models::build(&node).unwrap()
     }
@@ -201,16 +208,22 @@ mod tests {
         let many = build(&[("Dstart", d), ("Dend", 1.2), ("Dstep", step)]);
         let distribution = &crate::size::regular::SURFACE;
         let n =
-            (distribution.build)(&Node::with_defaults(&distribution.class, Mode::Sound)).unwrap();
-        let sphere = Node::with_defaults(&crate::scatterer::mie::SPEC.class, Mode::Sound)
-            .with("radius", Value::Number(0.5 * d))
-            .and_then(|node| node.with("sphere", Value::Index(Index::constant(1.5, 0.0))))
+            (distribution.build)(&ParameterNode::with_defaults(&distribution.class, Mode::Sound))
+                .unwrap();
+        let sphere = ParameterNode::with_defaults(&crate::scatterer::mie::SPEC.class, Mode::Sound)
+            .with("radius", ParameterValue::Number(0.5 * d))
+            .and_then(|node| {
+                node.with("sphere", ParameterValue::Index(RefractiveIndex::constant(1.5, 0.0)))
+            })
             .unwrap();
-        let one = Node::with_defaults(&super::super::double_interaction::SPEC.class, Mode::Sound)
-            .with("distance", Value::Number(0.5 * d))
-            .and_then(|node| node.with("density", Value::Number(n.density(d) * d * step)))
-            .and_then(|node| node.with("scatterer", Value::Member(Arc::new(sphere))))
-            .unwrap();
+        let one = ParameterNode::with_defaults(
+            &super::super::double_interaction::SPEC.class,
+            Mode::Sound,
+        )
+        .with("distance", ParameterValue::Number(0.5 * d))
+        .and_then(|node| node.with("density", ParameterValue::Number(n.density(d) * d * step)))
+        .and_then(|node| node.with("scatterer", ParameterValue::Member(Arc::new(sphere))))
+        .unwrap();
         let one = models::build(&one).unwrap().mueller(&AT, Basis::Psps);
         assert!((many.mueller(&AT, Basis::Psps) - one).largest() < 1e-12 * one.largest());
     }
@@ -239,8 +252,8 @@ mod tests {
     #[test]
     fn ranges_that_would_not_end_are_refused() {
         for (name, value, blamed) in [("Dstep", 0.0, "Dstep"), ("Dend", 1e9, "Dend")] {
-            let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-                .with(name, Value::Number(value))
+            let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+                .with(name, ParameterValue::Number(value))
                 .unwrap();
             assert_eq!((SPEC.build)(&node).err().unwrap().parameter, blamed);
         }

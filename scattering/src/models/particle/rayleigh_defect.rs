@@ -14,12 +14,12 @@
 
 use super::{
     LOCAL,
-    small_sphere::{Place, SmallSphere, total},
+    small_sphere::{SmallSphere, SpherePosition, total},
 };
 use crate::{
-    Defect, ParamError, Side,
-    models::{Brdf, COMMON, Common},
-    spec::{Class, Family, Laws, Param, Spec},
+    Defect, ParameterError, Side,
+    models::{Brdf, COMMON, CommonParameters},
+    spec::{Class, Family, Laws, Parameter, Spec},
     stack::Stack,
 };
 
@@ -35,28 +35,31 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             LOCAL,
             &[
-                Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
-                Param::number("radius", "0.001", "um", "Radius of the sphere"),
-                Param::number(
+                Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
+                Parameter::number("radius", "0.001", "um", "Radius of the sphere"),
+                Parameter::number(
                     "distance",
                     "0",
                     "um",
                     "Depth of the centre below the face of the substrate; with a negative one the wave of the \
                      substrate is continued upwards",
                 ),
-                Param::index("defect", "(1,0)", "Index of the sphere"),
+                Parameter::index("defect", "(1,0)", "Index of the sphere"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         let films = node.member::<Stack>("stack")?.at(common.lambda);
         let distance = node.number("distance");
         if !distance.is_finite() {
-            return Err(ParamError::new("distance", format!("{distance} um is not a distance")));
+            return Err(ParameterError::new(
+                "distance",
+                format!("{distance} um is not a distance"),
+            ));
         }
-        let place = Place { depth: total(&films) + distance, medium: common.substrate };
+        let place = SpherePosition { depth: total(&films) + distance, medium: common.substrate };
         let defect = node.index("defect").at(common.lambda);
         let sphere = SmallSphere::new(node, common, &films, place, defect)?;
         let lossy = common.side != Side::DownUp && node.reproduces(Defect::TinyLoss);
@@ -67,17 +70,19 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, Node, models, optics::Index, spec::Value};
+    use crate::{
+        Basis, Geometry, Mode, ParameterNode, models, optics::RefractiveIndex, spec::ParameterValue,
+    };
 
     #[test]
     fn the_loss_of_light_from_the_substrate_is_compats_and_tiny() {
         let at = Geometry { theta_i: 0.5, theta_s: 0.9, phi_s: 0.7, rotation: 0.0 };
         for (side, expected) in [(0, 0.0), (1, 1e-10), (2, 1e-10), (3, 1e-10)] {
             let [sound, compat] = [Mode::Sound, Mode::Compat].map(|mode| {
-                let node = Node::with_defaults(&super::SPEC.class, mode)
-                    .with("substrate", Value::Index(Index::constant(1.5, 0.0)))
-                    .and_then(|n| n.with("distance", Value::Number(0.2)))
-                    .and_then(|n| n.with("type", Value::Integer(side)))
+                let node = ParameterNode::with_defaults(&super::SPEC.class, mode)
+                    .with("substrate", ParameterValue::Index(RefractiveIndex::constant(1.5, 0.0)))
+                    .and_then(|n| n.with("distance", ParameterValue::Number(0.2)))
+                    .and_then(|n| n.with("type", ParameterValue::Integer(side)))
                     .unwrap();
                 models::build(&node).unwrap().mueller(&at, Basis::Psps)
             });

@@ -15,11 +15,11 @@ use num_complex::Complex64;
 
 use super::{
     LOCAL,
-    small_sphere::{Place, SmallSphere},
+    small_sphere::{SmallSphere, SpherePosition},
 };
 use crate::{
-    models::{Brdf, COMMON, Common},
-    spec::{Class, Family, Laws, Param, Spec},
+    models::{Brdf, COMMON, CommonParameters},
+    spec::{Class, Family, Laws, Parameter, Spec},
     stack::Stack,
 };
 
@@ -35,19 +35,19 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             LOCAL,
             &[
-                Param::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
-                Param::number("depth", "0", "um", "Depth of the centre below the outer face"),
-                Param::number("radius", "0.01", "um", "Radius of the sphere"),
-                Param::index("sphere", "(1,0)", "Index of the sphere"),
+                Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
+                Parameter::number("depth", "0", "um", "Depth of the centre below the outer face"),
+                Parameter::number("radius", "0.01", "um", "Radius of the sphere"),
+                Parameter::index("sphere", "(1,0)", "Index of the sphere"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         let films = node.member::<Stack>("stack")?.at(common.lambda);
         let depth = node.number("depth");
-        let place = Place { depth, medium: medium_at(depth, &films, common.substrate) };
+        let place = SpherePosition { depth, medium: medium_at(depth, &films, common.substrate) };
         Ok(Box::new(SmallSphere::new(
             node,
             common,
@@ -75,7 +75,9 @@ fn medium_at(depth: f64, films: &[(Complex64, f64)], substrate: Complex64) -> Co
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Basis, Geometry, Mode, Node, models, optics::Index, spec::Value};
+    use crate::{
+        Basis, Geometry, Mode, ParameterNode, models, optics::RefractiveIndex, spec::ParameterValue,
+    };
 
     fn c(n: f64) -> Complex64 {
         n.into()
@@ -92,10 +94,12 @@ mod tests {
     #[test]
     fn far_above_a_surface_without_contrast_it_is_a_free_rayleigh_sphere() {
         // dσ/dΩ of s light is k⁴r⁶|t|², the Rayleigh sphere's, for a substrate of index 1.
-        let node = Node::with_defaults(&SPEC.class, Mode::Sound)
-            .with("substrate", Value::Index(Index::constant(1.0, 0.0)))
-            .and_then(|n| n.with("sphere", Value::Index(Index::constant(1.5, 0.0))))
-            .and_then(|n| n.with("depth", Value::Number(-7.0)))
+        let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
+            .with("substrate", ParameterValue::Index(RefractiveIndex::constant(1.0, 0.0)))
+            .and_then(|n| {
+                n.with("sphere", ParameterValue::Index(RefractiveIndex::constant(1.5, 0.0)))
+            })
+            .and_then(|n| n.with("depth", ParameterValue::Number(-7.0)))
             .unwrap();
         let at = Geometry { theta_i: 0.3, theta_s: 0.8, phi_s: 0.0, rotation: 0.0 };
         let m = models::build(&node).unwrap().mueller(&at, Basis::Psps);

@@ -16,15 +16,15 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use crate::{
-    Direction, Incidence, Jones, Mueller, Node, ParamError,
-    geometry::Outgoing,
-    lanes::{Real, Vectors, WIDTH},
+    Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode,
+    geometry::ScatteredRay,
+    lanes::{Real, SimdLevel, WIDTH},
     models::{
-        Brdf, Common,
-        several::{Several, matrices},
+        Brdf, CommonParameters,
+        batch::{BatchKernel, evaluate},
     },
     optics::{
-        film::{Fields, Films, Wave, decaying_root},
+        film::{Films, IncidentSide, TangentialFields, decaying_root},
         first_order::{Drive, FirstOrder},
     },
     polarization::muellers,
@@ -32,7 +32,7 @@ use crate::{
 
 /// Where a sphere is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct SpherePosition {
     /// Depth of its centre below the outer face of the films, µm.
     pub depth: f64,
     /// Index of the medium around it.
@@ -41,7 +41,7 @@ pub(super) struct Place {
 
 /// The waves at a sphere that are known from the face of the substrate: those of a sphere above
 /// the face, and NIST's with its tiny loss ([`Defect::TinyLoss`](crate::Defect::TinyLoss)).
-struct FromFace {
+struct FaceWaves {
     films: Films,
     /// Distance of the sphere from the face of the substrate, µm.
     distance: f64,
@@ -49,25 +49,25 @@ struct FromFace {
 
 /// Small spheres, all in the same place.
 pub(super) struct SmallSphere {
-    common: Common,
+    common: CommonParameters,
     stack: FirstOrder,
     /// Depth in the stack as the light meets it, µm.
     depth: f64,
     /// C√density.
     coupling: Complex64,
     inverse_product: Complex64,
-    from_face: Option<FromFace>,
+    from_face: Option<FaceWaves>,
 }
 
 impl SmallSphere {
     /// Spheres of index `sphere` and the node's `radius` and `density` among `films`.
     pub(super) fn new(
-        node: &Node,
-        common: Common,
+        node: &ParameterNode,
+        common: CommonParameters,
         films: &[(Complex64, f64)],
-        place: Place,
+        place: SpherePosition,
         sphere: Complex64,
-    ) -> Result<Self, ParamError> {
+    ) -> Result<Self, ParameterError> {
         let radius = not_negative(node, "radius")?;
         let density = not_negative(node, "density")?;
         let stack = FirstOrder::new(common.side, films, common.substrate, common.lambda);
@@ -93,19 +93,19 @@ impl SmallSphere {
         distance: f64,
         lossy: bool,
     ) -> Self {
-        let Common { lambda, substrate, .. } = self.common;
+        let CommonParameters { lambda, substrate, .. } = self.common;
         let stack = Films::new(films, Complex64::ONE, substrate, lambda);
         let stack = if lossy { stack.with_tiny_loss() } else { stack };
-        Self { from_face: Some(FromFace { films: stack, distance }), ..self }
+        Self { from_face: Some(FaceWaves { films: stack, distance }), ..self }
     }
 
     /// Fields at the sphere for a wave with this sine of its angle and this tangential index.
-    fn fields(&self, from: Wave, sin: f64, kappa: Complex64) -> Fields {
+    fn fields(&self, from: IncidentSide, sin: f64, kappa: Complex64) -> TangentialFields {
         let films = self.stack.films();
         let (own_side, index) = if self.stack.is_turned_over() {
-            (Wave::FromOutside, films.outer())
+            (IncidentSide::FromOutside, films.outer())
         } else {
-            (Wave::FromSubstrate, films.substrate())
+            (IncidentSide::FromSubstrate, films.substrate())
         };
         match &self.from_face {
             Some(face) if from == own_side => face.fields(sin, index, self.stack.lambda()),
@@ -116,8 +116,8 @@ impl SmallSphere {
                     self.depth + if self.stack.is_turned_over() { -upwards } else { upwards };
                 let q = decaying_root(index * index - kappa * kappa);
                 let phase = (Complex64::I * q * (TAU / self.stack.lambda() * face.distance)).exp();
-                let Fields { e, u, w } = films.fields_at_depth(from, kappa, at_face);
-                Fields { e: e * phase, u: u * phase, w: w * phase }
+                let TangentialFields { e, u, w } = films.fields_at_depth(from, kappa, at_face);
+                TangentialFields { e: e * phase, u: u * phase, w: w * phase }
             }
             _ => films.fields_at_depth(from, kappa, self.depth),
         }
@@ -125,7 +125,7 @@ impl SmallSphere {
 
     fn drive(&self, incidence: &Incidence) -> Drive {
         let kappa = self.stack.kappa_in(incidence);
-        let fields = self.fields(Wave::FromOutside, incidence.sin, kappa);
+        let fields = self.fields(IncidentSide::FromOutside, incidence.sin, kappa);
         self.stack.drive(incidence, &fields, self.coupling, self.inverse_product)
     }
 
@@ -151,14 +151,14 @@ impl SmallSphere {
 }
 
 /// The sphere under a beam.
-struct Lit<'a> {
+struct IlluminatedSphere<'a> {
     sphere: &'a SmallSphere,
     drive: Drive,
 }
 
-impl Several for Lit<'_> {
+impl BatchKernel for IlluminatedSphere<'_> {
     #[inline(always)]
-    fn several<V: Vectors>(
+    fn batch<V: SimdLevel>(
         &self,
         vectors: V,
         directions: &[Direction; WIDTH],
@@ -172,9 +172,9 @@ impl Several for Lit<'_> {
         let (from, _) = sphere.stack.kappa_out(&directions[0]);
         let kappa_squared = vectors.load(&kappa_squared);
         let seen = sphere.stack.films().clear_fields(from, kappa_squared, sphere.depth);
-        let to = Outgoing::several(vectors, directions);
+        let to = ScatteredRay::batch(vectors, directions);
         let jones = sphere.stack.elements(drive, seen, &to);
-        muellers(vectors, jones, kappa_squared.all(1.0), out);
+        muellers(vectors, jones, kappa_squared.splat(1.0), out);
     }
 
     fn one(&self, direction: &Direction) -> Mueller {
@@ -182,15 +182,15 @@ impl Several for Lit<'_> {
     }
 }
 
-impl FromFace {
+impl FaceWaves {
     /// Fields of a unit wave from the sphere's own medium, of index `index` at the wavelength
     /// `lambda`, and of its reflection.
-    fn fields(&self, sin: f64, index: Complex64, lambda: f64) -> Fields {
+    fn fields(&self, sin: f64, index: Complex64, lambda: f64) -> TangentialFields {
         let r = self.films.r21(self.films.kappa_inside(sin));
         let cos = (1.0 - sin * sin).sqrt();
         let back = (Complex64::I * index * (TAU / lambda * self.distance * cos)).exp();
         let forth = 1.0 / back;
-        Fields {
+        TangentialFields {
             e: forth + r.s * back,
             u: forth + r.p * back,
             w: (forth - r.p * back) * (cos / index),
@@ -199,7 +199,7 @@ impl FromFace {
 }
 
 impl Brdf for SmallSphere {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
@@ -208,8 +208,8 @@ impl Brdf for SmallSphere {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        let lit = Lit { sphere: self, drive: self.drive(incidence) };
-        matrices(&lit, directions, out);
+        let lit = IlluminatedSphere { sphere: self, drive: self.drive(incidence) };
+        evaluate(&lit, directions, out);
     }
 
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
@@ -227,10 +227,10 @@ pub(super) fn total(films: &[(Complex64, f64)]) -> f64 {
 }
 
 /// The number `name`, which has to be finite and not negative.
-pub(super) fn not_negative(node: &Node, name: &str) -> Result<f64, ParamError> {
+pub(super) fn not_negative(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let value = node.number(name);
     if value >= 0.0 && value.is_finite() {
         return Ok(value);
     }
-    Err(ParamError::new(name, format!("{value} is not a finite number from 0 up")))
+    Err(ParameterError::new(name, format!("{value} is not a finite number from 0 up")))
 }

@@ -23,18 +23,20 @@ use glam::DVec3;
 
 use super::{
     LOCAL,
-    paths::{Beam, Bounce, ORIENTATION, Paths, Placed, nudged},
+    paths::{
+        FaceReflection, InteractionPaths, ORIENTATION, OrientedParticle, PolarizedBeam, nudged,
+    },
     small_sphere::not_negative,
 };
 use crate::{
-    Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
+    Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode, Side,
     models::{
-        Brdf, COMMON, Common,
+        Brdf, COMMON, CommonParameters,
         diffuse::{INTERFACE, interface},
     },
-    optics::film::{Films, Pair},
+    optics::film::{Films, SpAmplitudes},
     scatterer::Scatterer,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build a [`SubsurfaceParticle`].
@@ -50,8 +52,8 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             LOCAL,
             INTERFACE,
             &[
-                Param::number("depth", "0", "um", "Depth of the particle below the face"),
-                Param::member(
+                Parameter::number("depth", "0", "um", "Depth of the particle below the face"),
+                Parameter::member(
                     "scatterer",
                     Family::Scatterer,
                     "Free_Space_Scatterer",
@@ -69,9 +71,9 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 /// A particle in the substrate.
 pub struct SubsurfaceParticle {
-    common: Common,
+    common: CommonParameters,
     films: Films,
-    particle: Placed,
+    particle: OrientedParticle,
     depth: f64,
     density: f64,
     n: f64,
@@ -83,20 +85,20 @@ pub struct SubsurfaceParticle {
 }
 
 impl SubsurfaceParticle {
-    fn read(node: &Node) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         let n = common.substrate;
         if n.im != 0.0 {
-            return Err(ParamError::new("substrate", format!("absorbs (k = {})", n.im)));
+            return Err(ParameterError::new("substrate", format!("absorbs (k = {})", n.im)));
         }
         let particle = node.member::<dyn Scatterer>("scatterer")?;
         if particle.lambda() != common.lambda {
             let problem = format!("{} um is not the model's {}", particle.lambda(), common.lambda);
-            return Err(ParamError::new("scatterer.lambda", problem));
+            return Err(ParameterError::new("scatterer.lambda", problem));
         }
         if particle.medium().re != n.re {
             let problem = format!("{} is not the substrate's {}", particle.medium().re, n.re);
-            return Err(ParamError::new("scatterer.medium", problem));
+            return Err(ParameterError::new("scatterer.medium", problem));
         }
         let mut films = interface(node, &common, n)?;
         if common.side != Side::DownUp && node.reproduces(Defect::TinyLoss) {
@@ -104,7 +106,7 @@ impl SubsurfaceParticle {
         }
         Ok(Self {
             films,
-            particle: Placed::read(node, particle)?,
+            particle: OrientedParticle::read(node, particle)?,
             depth: not_negative(node, "depth")?,
             density: not_negative(node, "density")?,
             n: n.re,
@@ -122,19 +124,20 @@ impl SubsurfaceParticle {
         (squared > 0.0).then(|| DVec3::new(x, y, squared.sqrt().copysign(k.z)))
     }
 
-    fn bounce(&self, sin: f64, cos: f64) -> Bounce {
+    fn bounce(&self, sin: f64, cos: f64) -> FaceReflection {
         let r = self.films.r21(self.films.kappa_inside(sin));
-        Bounce { r, phase: 2.0 * self.k * cos }
+        FaceReflection { r, phase: 2.0 * self.k * cos }
     }
 
-    fn paths(&self, incidence: &Incidence, direction: &Direction) -> Option<Paths> {
+    fn paths(&self, incidence: &Incidence, direction: &Direction) -> Option<InteractionPaths> {
         let side = self.common.side;
         let (k_i, k_s) = crate::geometry::propagation(side, incidence, direction);
         let inside_i = if side.from_below() { k_i } else { self.refracted(k_i)? };
         let inside_s = if side.to_below() { k_s } else { self.refracted(k_s)? };
         let s_out = if self.normal_is_y { direction.nists_s() } else { direction.s() };
-        let (incoming, outgoing) = (Beam::new(inside_i, incidence.s()), Beam::new(inside_s, s_out));
-        let mut paths = Paths::new(incoming, outgoing, self.k);
+        let (incoming, outgoing) =
+            (PolarizedBeam::new(inside_i, incidence.s()), PolarizedBeam::new(inside_s, s_out));
+        let mut paths = InteractionPaths::new(incoming, outgoing, self.k);
         if side.from_below() {
             paths.before = Some(self.bounce(incidence.sin, incidence.cos));
         } else {
@@ -154,7 +157,7 @@ impl SubsurfaceParticle {
     }
 
     /// What leaves through the face; type 0 writes t21 by the reversed path.
-    fn leaving(&self, side: Side, direction: &Direction) -> Pair {
+    fn leaving(&self, side: Side, direction: &Direction) -> SpAmplitudes {
         match side {
             Side::UpUp => self.films.t21(direction.sin.into()),
             _ => self.films.t12(direction.sin.into()),
@@ -171,7 +174,7 @@ impl SubsurfaceParticle {
 }
 
 impl Brdf for SubsurfaceParticle {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
@@ -193,20 +196,20 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{Basis, Geometry, Mode, Value, models, optics::Index};
+    use crate::{Basis, Geometry, Mode, ParameterValue, models, optics::RefractiveIndex};
 
-    fn node(mode: Mode, side: i32, n: f64, depth: f64) -> Node {
-        let index = |n, k| Value::Index(Index::constant(n, k));
-        let particle = Node::with_defaults(&crate::scatterer::mie::SPEC.class, mode)
+    fn node(mode: Mode, side: i32, n: f64, depth: f64) -> ParameterNode {
+        let index = |n, k| ParameterValue::Index(RefractiveIndex::constant(n, k));
+        let particle = ParameterNode::with_defaults(&crate::scatterer::mie::SPEC.class, mode)
             .with("medium", index(n, 0.0))
-            .and_then(|node| node.with("radius", Value::Number(0.2)))
+            .and_then(|node| node.with("radius", ParameterValue::Number(0.2)))
             .and_then(|node| node.with("sphere", index(1.3, 0.05)))
             .unwrap();
-        Node::with_defaults(&SPEC.class, mode)
+        ParameterNode::with_defaults(&SPEC.class, mode)
             .with("substrate", index(n, 0.0))
-            .and_then(|node| node.with("type", Value::Integer(side)))
-            .and_then(|node| node.with("depth", Value::Number(depth)))
-            .and_then(|node| node.with("scatterer", Value::Member(Arc::new(particle))))
+            .and_then(|node| node.with("type", ParameterValue::Integer(side)))
+            .and_then(|node| node.with("depth", ParameterValue::Number(depth)))
+            .and_then(|node| node.with("scatterer", ParameterValue::Member(Arc::new(particle))))
             .unwrap()
     }
 
@@ -259,10 +262,11 @@ mod tests {
 
     #[test]
     fn a_particle_in_another_medium_is_refused() {
-        let index = Value::Index(Index::constant(1.6, 0.0));
+        let index = ParameterValue::Index(RefractiveIndex::constant(1.6, 0.0));
         let wrong = node(Mode::Sound, 0, 1.5, 0.0).with("substrate", index).unwrap();
         assert_eq!((SPEC.build)(&wrong).err().unwrap().parameter, "scatterer.medium");
-        let wrong = node(Mode::Sound, 0, 1.5, 0.0).with("lambda", Value::Number(0.6)).unwrap();
+        let wrong =
+            node(Mode::Sound, 0, 1.5, 0.0).with("lambda", ParameterValue::Number(0.6)).unwrap();
         assert_eq!((SPEC.build)(&wrong).err().unwrap().parameter, "scatterer.lambda");
     }
 }

@@ -20,18 +20,18 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use self::image::{Method, Response};
+use self::image::{ImageMethod, MultipoleResponse};
 use super::small_sphere::not_negative;
 use crate::{
-    Defect, Direction, Incidence, Jones, Mueller, Node, ParamError, Side,
-    models::{Brdf, Common},
-    optics::film::{Films, Pair},
-    spec::Param,
+    Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode, Side,
+    models::{Brdf, CommonParameters},
+    optics::film::{Films, SpAmplitudes},
+    spec::Parameter,
     special::harmonics::Harmonics,
     stack::Stack,
     tmatrix::{
         TMatrix,
-        waves::{self, Beam, Multipole, Outgoing},
+        waves::{self, MirroredWave, Multipole, OutgoingMultipoles},
     },
 };
 
@@ -41,18 +41,18 @@ mod image;
 const NORMAL: f64 = 1e-6;
 
 /// The parameters of how the interaction with the face is computed.
-pub(super) const INTERACTION: [Param; 3] = [
-    Param::integer(
+pub(super) const INTERACTION: [Parameter; 3] = [
+    Parameter::integer(
         "order",
         "-1",
         "Interaction with the face: -1 exact, 0 none, n the first n terms of a series",
     ),
-    Param::integer(
+    Parameter::integer(
         "Norm_Inc_Approx",
         "0",
         "Reflection of the particle's own light: 0 exact, 1 as at normal incidence",
     ),
-    Param::integer(
+    Parameter::integer(
         "improve",
         "3",
         "Steps of iterative improvement in NIST's library; no effect, the solution is exact",
@@ -60,8 +60,8 @@ pub(super) const INTERACTION: [Param; 3] = [
 ];
 
 /// The smooth face and where the particle is, as one outside in vacuum.
-pub(super) struct Ground {
-    common: Common,
+pub(super) struct SubstrateFace {
+    common: CommonParameters,
     /// The side seen from the particle.
     side: Side,
     films: Films,
@@ -74,23 +74,23 @@ pub(super) struct Ground {
     delta: f64,
     density: f64,
     normal_only: bool,
-    method: Method,
+    method: ImageMethod,
     nudges: bool,
     flips: bool,
 }
 
-impl Ground {
+impl SubstrateFace {
     /// What every model has.
-    pub(super) fn common(&self) -> &Common {
+    pub(super) fn common(&self) -> &CommonParameters {
         &self.common
     }
 
     /// Reads what all such models share; `buried` puts the particle into the substrate.
-    pub(super) fn read(node: &Node, buried: bool) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
+    pub(super) fn read(node: &ParameterNode, buried: bool) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
         let substrate = common.substrate;
         if !(substrate.re > 0.0 && substrate.is_finite()) {
-            return Err(ParamError::new("substrate", format!("{substrate} is not an index")));
+            return Err(ParameterError::new("substrate", format!("{substrate} is not an index")));
         }
         let mut layers = node.member::<Stack>("stack")?.at(common.lambda);
         let (medium, side) =
@@ -102,10 +102,12 @@ impl Ground {
         }
         let lambda = common.lambda / medium;
         let method = match node.integer("order") {
-            i32::MIN..0 => Method::Exact,
-            0 => Method::Alone,
-            terms if terms <= 1000 => Method::Series(terms as usize),
-            terms => return Err(ParamError::new("order", format!("{terms} is more than 1000"))),
+            i32::MIN..0 => ImageMethod::Exact,
+            0 => ImageMethod::Alone,
+            terms if terms <= 1000 => ImageMethod::Series(terms as usize),
+            terms => {
+                return Err(ParameterError::new("order", format!("{terms} is more than 1000")));
+            }
         };
         Ok(Self {
             side,
@@ -135,9 +137,9 @@ fn turned(side: Side) -> Side {
 }
 
 /// A particle on or in a substrate.
-pub(super) struct Supported {
-    ground: Ground,
-    response: Response,
+pub(super) struct SupportedParticle {
+    ground: SubstrateFace,
+    response: MultipoleResponse,
     /// k times the height of the origin over the face.
     height: f64,
     incoming: Harmonics,
@@ -145,24 +147,25 @@ pub(super) struct Supported {
     mispairs: bool,
 }
 
-impl Supported {
+impl SupportedParticle {
     /// The particle with this T-matrix, its origin at `height` µm over the face if it touches it;
     /// light is summed over l up to `l_out`.
     pub(super) fn new(
-        ground: Ground,
+        ground: SubstrateFace,
         particle: &TMatrix,
         height: f64,
         l_out: usize,
-    ) -> Result<Self, ParamError> {
+    ) -> Result<Self, ParameterError> {
         let height = ground.k * (height + ground.delta);
         let l_out = l_out.min(particle.l_max);
         let m_out = particle.m_max().min(l_out);
-        let Ground { films, normal_only, method, .. } = &ground;
-        let response = Response::new(particle, films, height, *normal_only, *method, l_out)
-            .ok_or_else(|| {
-                let problem = "too many multipoles for this size and shape: they overflow";
-                ParamError::new("lmax", problem)
-            })?;
+        let SubstrateFace { films, normal_only, method, .. } = &ground;
+        let response =
+            MultipoleResponse::new(particle, films, height, *normal_only, *method, l_out)
+                .ok_or_else(|| {
+                    let problem = "too many multipoles for this size and shape: they overflow";
+                    ParameterError::new("lmax", problem)
+                })?;
         Ok(Self {
             response,
             height,
@@ -179,40 +182,50 @@ impl Supported {
         Self { mispairs: true, ..self }
     }
 
-    fn excited(&self, incidence: &Incidence) -> Outgoing {
+    fn excited(&self, incidence: &Incidence) -> OutgoingMultipoles {
         let below = self.ground.side.from_below();
         let (sin, cos) = self.ground.angle(incidence.theta(), incidence.sin, incidence.cos);
         let beam = if below {
             let (cos, t) = self.ground.through(sin, cos, self.height);
             let factor = self.ground.n.sqrt().recip();
-            Beam {
+            MirroredWave {
                 cos,
                 sin: self.ground.n * sin,
-                direct: Pair::default(),
+                direct: SpAmplitudes::default(),
                 mirrored: times(t, factor.into()),
             }
         } else {
             let mirrored = self.ground.reflected(sin, cos, self.height);
-            Beam { mirrored, ..Beam::free(cos, sin) }
+            MirroredWave { mirrored, ..MirroredWave::free(cos, sin) }
         };
         let w = self.response.apply(&waves::regular(&self.incoming, &beam));
         if self.mispairs {
             mispaired(&w, &self.outgoing)
         } else {
-            Outgoing::symmetric(w.into_iter())
+            OutgoingMultipoles::symmetric(w.into_iter())
         }
     }
 
-    fn amplitude(&self, excited: &Outgoing, incidence: &Incidence, direction: &Direction) -> Jones {
+    fn amplitude(
+        &self,
+        excited: &OutgoingMultipoles,
+        incidence: &Incidence,
+        direction: &Direction,
+    ) -> Jones {
         let ground = &self.ground;
         let (sin, cos) = ground.angle(direction.theta(), direction.sin, direction.cos);
         let beam = if ground.side.to_below() {
             let (inside, t) = ground.through(sin, cos, self.height);
             let direct = times(t, ground.n.sqrt().into());
-            Beam { cos: inside, sin: ground.n * sin, direct, mirrored: Pair::default() }
+            MirroredWave {
+                cos: inside,
+                sin: ground.n * sin,
+                direct,
+                mirrored: SpAmplitudes::default(),
+            }
         } else {
             let mirrored = ground.reflected(sin, cos, self.height);
-            Beam { mirrored, ..Beam::free(-cos, sin) }
+            MirroredWave { mirrored, ..MirroredWave::free(-cos, sin) }
         };
         // A negative polar angle stands for the azimuth on the other side.
         let side = if (direction.sin < 0.0) != (incidence.sin < 0.0) { -1.0 } else { 1.0 };
@@ -223,19 +236,19 @@ impl Supported {
     }
 }
 
-impl Ground {
+impl SubstrateFace {
     /// Sine and cosine of a polar angle, which the library keeps away from 0.
     fn angle(&self, theta: f64, sin: f64, cos: f64) -> (f64, f64) {
         if self.nudges && theta.abs() < NORMAL { NORMAL.sin_cos() } else { (sin.abs(), cos) }
     }
 
-    fn reflected(&self, sin: f64, cos: f64, height: f64) -> Pair {
+    fn reflected(&self, sin: f64, cos: f64, height: f64) -> SpAmplitudes {
         let r = self.films.r12(sin.into());
         times(r, Complex64::cis(2.0 * height * cos))
     }
 
     /// Cosine outside of a beam in the substrate, and its t21 with the phase of its height.
-    fn through(&self, sin: f64, cos: f64, height: f64) -> (Complex64, Pair) {
+    fn through(&self, sin: f64, cos: f64, height: f64) -> (Complex64, SpAmplitudes) {
         let kappa = self.n * sin;
         let squared = 1.0 - kappa * kappa;
         let outside = if squared < 0.0 {
@@ -248,13 +261,13 @@ impl Ground {
     }
 }
 
-fn times(pair: Pair, factor: Complex64) -> Pair {
-    Pair { s: pair.s * factor, p: pair.p * factor }
+fn times(pair: SpAmplitudes, factor: Complex64) -> SpAmplitudes {
+    SpAmplitudes { s: pair.s * factor, p: pair.p * factor }
 }
 
 /// The multipoles as the library pairs them: the list of those with l ≤ L and |m| ≤ min(m_max, l)
 /// takes its values one by one from the start of the list of all |m| ≤ l.
-fn mispaired(w: &[(usize, usize, Multipole)], harmonics: &Harmonics) -> Outgoing {
+fn mispaired(w: &[(usize, usize, Multipole)], harmonics: &Harmonics) -> OutgoingMultipoles {
     let (l_max, m_max) = (harmonics.l_max(), harmonics.m_max());
     let place = |l: usize, m: isize| 2 * (l * l + l - 1).wrapping_add_signed(m);
     let mut full = vec![[Complex64::ZERO; 2]; 2 * l_max * (l_max + 2)];
@@ -282,11 +295,11 @@ fn mispaired(w: &[(usize, usize, Multipole)], harmonics: &Harmonics) -> Outgoing
             paired.push((l, read(middle + 2 * m, 1.0), minus));
         }
     }
-    Outgoing::general(&paired)
+    OutgoingMultipoles::general(&paired)
 }
 
-impl Brdf for Supported {
-    fn common(&self) -> &Common {
+impl Brdf for SupportedParticle {
+    fn common(&self) -> &CommonParameters {
         &self.ground.common
     }
 
@@ -329,10 +342,11 @@ mod tests {
             w.push((m, l, Multipole { p, s }));
         });
         let films = Films::new(&[], Complex64::ONE, Complex64::new(1.5, 0.1), 0.6);
-        let beam = Beam { mirrored: films.r12(0.6.into()), ..Beam::free(-0.8, 0.6) };
+        let beam =
+            MirroredWave { mirrored: films.r12(0.6.into()), ..MirroredWave::free(-0.8, 0.6) };
         let azimuth = (0.6, 0.8);
         let a = mispaired(&w, &harmonics).amplitude(&harmonics, &beam, azimuth);
-        let b = Outgoing::symmetric(w.into_iter()).amplitude(&harmonics, &beam, azimuth);
+        let b = OutgoingMultipoles::symmetric(w.into_iter()).amplitude(&harmonics, &beam, azimuth);
         let difference = (a.ss - b.ss).norm() + (a.ps - b.ps).norm();
         let other = (a.pp - b.pp).norm() + (a.sp - b.sp).norm();
         assert!(difference + other < 1e-11 * a.ss.norm(), "{a:?} {b:?}");

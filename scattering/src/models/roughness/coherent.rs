@@ -2,35 +2,42 @@
 //!
 //! $$ \mathbf{J} = \sqrt{\mathrm{PSD}} \sum_{m} \mathbf{J}_m $$
 //!
-//! with the amplitudes of [`Interfaces`].
+//! with the amplitudes of [`StackContrast`].
 
 use std::{ops::Range, slice};
 
 use num_complex::Complex64;
 
-use super::{Rough, interfaces::Interfaces};
+use super::{RoughSurface, interfaces::StackContrast};
 use crate::{
-    Direction, Incidence, Jones, Mueller, Node, ParamError,
-    models::{Brdf, Common},
+    Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode,
+    models::{Brdf, CommonParameters},
 };
 
 /// Interfaces of a film stack that are rough with one profile.
-pub(super) struct Coherent {
-    rough: Rough,
-    interfaces: Interfaces,
+pub(super) struct CorrelatedInterfaces {
+    rough: RoughSurface,
+    interfaces: StackContrast,
     which: Range<usize>,
 }
 
-impl Coherent {
+impl CorrelatedInterfaces {
     /// Of the interfaces of `films`, the substrate's first, those in `which`.
-    pub(super) fn new(rough: Rough, films: &[(Complex64, f64)], which: Range<usize>) -> Self {
-        let interfaces = Interfaces::new(&rough.common, films);
+    pub(super) fn new(
+        rough: RoughSurface,
+        films: &[(Complex64, f64)],
+        which: Range<usize>,
+    ) -> Self {
+        let interfaces = StackContrast::new(&rough.common, films);
         Self { rough, interfaces, which }
     }
 
     /// One film: its index is the parameter `film`, its thickness `thickness`.
-    pub(super) fn one_film(node: &Node, which: Range<usize>) -> Result<Box<dyn Brdf>, ParamError> {
-        let rough = Rough::read(node)?;
+    pub(super) fn one_film(
+        node: &ParameterNode,
+        which: Range<usize>,
+    ) -> Result<Box<dyn Brdf>, ParameterError> {
+        let rough = RoughSurface::read(node)?;
         let film = node.index("film").at(rough.common.lambda);
         let films = [(film, super::thickness(node, "thickness")?)];
         Ok(Box::new(Self::new(rough, &films, which)))
@@ -49,8 +56,8 @@ impl Coherent {
     }
 }
 
-impl Brdf for Coherent {
-    fn common(&self) -> &Common {
+impl Brdf for CorrelatedInterfaces {
+    fn common(&self) -> &CommonParameters {
         &self.rough.common
     }
 

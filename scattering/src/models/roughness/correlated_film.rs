@@ -8,10 +8,10 @@
 //! J. M. Elson, *Multilayer-coated optics: guided-wave coupling and scattering by means of
 //! interface random roughness*, J. Opt. Soc. Am. A 12, 729 (1995).
 
-use super::{ROUGHNESS, coherent::Coherent};
+use super::{ROUGHNESS, coherent::CorrelatedInterfaces};
 use crate::{
     models::{Brdf, COMMON},
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -26,11 +26,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             ROUGHNESS,
             &[
-                Param::number("thickness", "0.05", "um", "Thickness of the film"),
-                Param::index("film", "(1.46,0)", "Index of the film"),
+                Parameter::number("thickness", "0.05", "um", "Thickness of the film"),
+                Parameter::index("film", "(1.46,0)", "Index of the film"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,
     },
-    build: |node| Coherent::one_film(node, 0..2),
+    build: |node| CorrelatedInterfaces::one_film(node, 0..2),
 };

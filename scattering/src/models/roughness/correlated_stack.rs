@@ -7,7 +7,7 @@
 //! J. M. Elson, *Multilayer-coated optics: guided-wave coupling and scattering by means of
 //! interface random roughness*, J. Opt. Soc. Am. A 12, 729 (1995).
 
-use super::{ROUGHNESS, Rough, STACK, coherent::Coherent};
+use super::{ROUGHNESS, RoughSurface, STACK, coherent::CorrelatedInterfaces};
 use crate::{
     models::{Brdf, COMMON},
     spec::{Class, Laws, Spec},
@@ -26,8 +26,8 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let rough = Rough::read(node)?;
+        let rough = RoughSurface::read(node)?;
         let films = node.member::<Stack>("stack")?.at(rough.common.lambda);
-        Ok(Box::new(Coherent::new(rough, &films, 0..films.len() + 1)))
+        Ok(Box::new(CorrelatedInterfaces::new(rough, &films, 0..films.len() + 1)))
     },
 };

@@ -22,12 +22,12 @@
 
 use std::{f64::consts::PI, slice};
 
-use super::{ROUGHNESS, Rough, STACK, interfaces::Interfaces};
+use super::{ROUGHNESS, RoughSurface, STACK, interfaces::StackContrast};
 use crate::{
-    Direction, Incidence, Jones, Mueller, ParamError,
-    models::{Brdf, COMMON, Common},
+    Direction, Incidence, Jones, Mueller, ParameterError,
+    models::{Brdf, COMMON, CommonParameters},
     psd::Psd,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
     stack::Stack,
 };
 
@@ -43,16 +43,16 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let rough = Rough::read(node)?;
+        let rough = RoughSurface::read(node)?;
         let films = node.member::<Stack>("stack")?.at(rough.common.lambda);
         let (relaxation, exponent) = (node.number("relaxation"), node.number("exponent"));
         let strength = relaxation.powf(exponent - 1.0);
         if !(relaxation >= 0.0 && strength.is_finite()) {
             let problem = format!("{relaxation} um has no power {}", exponent - 1.0);
-            return Err(ParamError::new("relaxation", problem));
+            return Err(ParameterError::new("relaxation", problem));
         }
         Ok(Box::new(GrowthStack {
-            interfaces: Interfaces::new(&rough.common, &films),
+            interfaces: StackContrast::new(&rough.common, &films),
             intrinsic: node.member::<dyn Psd>("intrinsic")?,
             rough,
             thicknesses: films.iter().map(|&(_, thickness)| thickness).collect(),
@@ -62,10 +62,10 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
 };
 
-const OWN: &[Param] = &[
-    Param::number("relaxation", "0", "um", "Relaxation length of the growth"),
-    Param::number("exponent", "2", "1", "Exponent of the relaxation"),
-    Param::member(
+const OWN: &[Parameter] = &[
+    Parameter::number("relaxation", "0", "um", "Relaxation length of the growth"),
+    Parameter::number("exponent", "2", "1", "Exponent of the relaxation"),
+    Parameter::member(
         "intrinsic",
         Family::Psd,
         "PSD_Function",
@@ -76,8 +76,8 @@ const OWN: &[Param] = &[
 
 /// A film stack with partly replicated roughness.
 pub struct GrowthStack {
-    rough: Rough,
-    interfaces: Interfaces,
+    rough: RoughSurface,
+    interfaces: StackContrast,
     intrinsic: Box<dyn Psd>,
     /// The one next to the substrate first, µm.
     thicknesses: Vec<f64>,
@@ -105,7 +105,7 @@ impl GrowthStack {
 }
 
 impl Brdf for GrowthStack {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.rough.common
     }
 
@@ -116,9 +116,14 @@ impl Brdf for GrowthStack {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        self.interfaces.amplitudes(incidence, directions, self.interfaces.all(), |place, jones| {
-            let (fx, fy) = self.rough.frequency(incidence, &directions[place]);
-            out[place] = self.grow(jones, fx, fy);
-        });
+        self.interfaces.amplitudes(
+            incidence,
+            directions,
+            self.interfaces.every(),
+            |place, jones| {
+                let (fx, fy) = self.rough.frequency(incidence, &directions[place]);
+                out[place] = self.grow(jones, fx, fy);
+            },
+        );
     }
 }

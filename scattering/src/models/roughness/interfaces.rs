@@ -15,30 +15,30 @@ use num_complex::Complex64;
 
 use crate::{
     Direction, Incidence, Jones,
-    models::Common,
+    models::CommonParameters,
     optics::{
-        film::{Fields, Wave},
+        film::{IncidentSide, TangentialFields},
         first_order::{Drive, FirstOrder},
     },
 };
 
 /// A film stack with the optical contrast of its interfaces.
-pub(super) struct Interfaces {
+pub(super) struct StackContrast {
     stack: FirstOrder,
     /// As the light leaves them: the last one is met first.
-    contrasts: Vec<Contrast>,
+    contrasts: Vec<InterfaceContrast>,
 }
 
-struct Contrast {
+struct InterfaceContrast {
     /// C.
     coupling: Complex64,
     /// 1/(ε₋ε₊).
     inverse_product: Complex64,
 }
 
-impl Interfaces {
+impl StackContrast {
     /// The interfaces of `films`, (index, thickness µm) with the one next to the substrate first.
-    pub(super) fn new(common: &Common, films: &[(Complex64, f64)]) -> Self {
+    pub(super) fn new(common: &CommonParameters, films: &[(Complex64, f64)]) -> Self {
         let stack = FirstOrder::new(common.side, films, common.substrate, common.lambda);
         let mut media = vec![common.substrate];
         media.extend(films.iter().map(|&(index, _)| index));
@@ -49,14 +49,17 @@ impl Interfaces {
         let scale = stack.sign() * PI / (stack.lambda() * stack.lambda());
         let contrast = |pair: &[Complex64]| {
             let [below, above] = [0, 1].map(|j| (pair[j] / stack.unit()).powi(2));
-            Contrast { coupling: (above - below) * scale, inverse_product: 1.0 / (above * below) }
+            InterfaceContrast {
+                coupling: (above - below) * scale,
+                inverse_product: 1.0 / (above * below),
+            }
         };
         let contrasts = media.windows(2).map(contrast).collect();
         Self { stack, contrasts }
     }
 
     /// Every interface.
-    pub(super) fn all(&self) -> Range<usize> {
+    pub(super) fn every(&self) -> Range<usize> {
         0..self.contrasts.len()
     }
 
@@ -70,7 +73,7 @@ impl Interfaces {
         mut each: impl FnMut(usize, &[Jones]),
     ) {
         let count = self.contrasts.len();
-        let mut fields = vec![Fields::default(); count];
+        let mut fields = vec![TangentialFields::default(); count];
         let drives = self.drives(incidence, &mut fields);
         let mut jones = vec![Jones::default(); which.len()];
         for (place, direction) in directions.iter().enumerate() {
@@ -85,10 +88,10 @@ impl Interfaces {
         }
     }
 
-    fn drives(&self, incidence: &Incidence, fields: &mut [Fields]) -> Vec<Drive> {
+    fn drives(&self, incidence: &Incidence, fields: &mut [TangentialFields]) -> Vec<Drive> {
         let kappa = self.stack.kappa_in(incidence);
-        self.stack.films().fields_at_interfaces(Wave::FromOutside, kappa, fields);
-        let drive = |(field, contrast): (&Fields, &Contrast)| {
+        self.stack.films().fields_at_interfaces(IncidentSide::FromOutside, kappa, fields);
+        let drive = |(field, contrast): (&TangentialFields, &InterfaceContrast)| {
             self.stack.drive(incidence, field, contrast.coupling, contrast.inverse_product)
         };
         fields.iter().zip(&self.contrasts).map(drive).collect()

@@ -36,14 +36,14 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
-use super::{ROUGHNESS, Rough};
+use super::{ROUGHNESS, RoughSurface};
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, Side,
-    geometry::Outgoing,
-    lanes::{Complex, Real, Vectors, WIDTH},
+    geometry::ScatteredRay,
+    lanes::{Complex, Real, SimdLevel, WIDTH},
     models::{
-        Brdf, COMMON, Common,
-        several::{Several, matrices},
+        Brdf, COMMON, CommonParameters,
+        batch::{BatchKernel, evaluate},
     },
     optics::film::{decaying_root, root},
     polarization::muellers,
@@ -62,8 +62,8 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let rough = Rough::read(node)?;
-        let Common { lambda, substrate, side } = rough.common;
+        let rough = RoughSurface::read(node)?;
+        let CommonParameters { lambda, substrate, side } = rough.common;
         let (index, lambda) = if side.from_below() {
             (1.0 / substrate, lambda / substrate.re)
         } else {
@@ -83,7 +83,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 /// A bare rough surface.
 pub struct Microroughness {
-    rough: Rough,
+    rough: RoughSurface,
     /// Index of the medium beyond the surface over that of the medium of incidence.
     index: Complex64,
     epsilon: Complex64,
@@ -95,7 +95,7 @@ pub struct Microroughness {
 
 /// The half of the amplitudes that belongs to the incident beam.
 #[derive(Clone, Copy)]
-struct Beam {
+struct IncidentFactors {
     /// q_i or A_i.
     q: Complex64,
     /// All that does not depend on the direction, over (c_i + q_i) and (εc_i + q_i).
@@ -104,22 +104,22 @@ struct Beam {
 }
 
 /// The surface under a beam.
-struct Lit<'a> {
+struct IlluminatedSurface<'a> {
     surface: &'a Microroughness,
-    beam: Beam,
+    beam: IncidentFactors,
     incidence: &'a Incidence,
 }
 
-impl Several for Lit<'_> {
+impl BatchKernel for IlluminatedSurface<'_> {
     #[inline(always)]
-    fn several<V: Vectors>(
+    fn batch<V: SimdLevel>(
         &self,
         vectors: V,
         directions: &[Direction; WIDTH],
         out: &mut [Mueller; WIDTH],
     ) {
         let Self { surface, beam, incidence } = self;
-        let to = Outgoing::several(vectors, directions);
+        let to = ScatteredRay::batch(vectors, directions);
         let jones = surface.elements(beam, incidence, &to);
         let density = |to| surface.rough.density(incidence, to);
         muellers(vectors, jones, vectors.load(&directions.each_ref().map(density)), out);
@@ -132,38 +132,45 @@ impl Several for Lit<'_> {
 }
 
 impl Microroughness {
-    fn beam(&self, incidence: &Incidence) -> Beam {
+    fn beam(&self, incidence: &Incidence) -> IncidentFactors {
         let q = decaying_root(self.epsilon - incidence.sin * incidence.sin);
         let contrast =
             if self.transmits { (1.0 - self.epsilon) * self.index } else { self.epsilon - 1.0 };
         let factor = contrast * (self.scale * incidence.cos.sqrt());
-        Beam { q, s: factor / (incidence.cos + q), p: factor / (self.epsilon * incidence.cos + q) }
+        IncidentFactors {
+            q,
+            s: factor / (incidence.cos + q),
+            p: factor / (self.epsilon * incidence.cos + q),
+        }
     }
 
     /// Amplitude per √PSD: its elements ss, ps, sp and pp.
     #[inline(always)]
     fn elements<R: Real>(
         &self,
-        beam: &Beam,
+        beam: &IncidentFactors,
         incidence: &Incidence,
-        to: &Outgoing<R>,
+        to: &ScatteredRay<R>,
     ) -> [Complex<R>; 4] {
         let [ss, ps, sp, pp] = if self.transmits {
             self.transmitted(beam, incidence, to)
         } else {
             self.reflected(beam, incidence, to)
         };
-        let crossed =
-            if self.rough.common.side.from_below() { to.cos.all(-1.0) } else { to.cos.all(1.0) };
+        let crossed = if self.rough.common.side.from_below() {
+            to.cos.splat(-1.0)
+        } else {
+            to.cos.splat(1.0)
+        };
         [ss, ps * crossed, sp * crossed, pp]
     }
 
     #[inline(always)]
     fn reflected<R: Real>(
         &self,
-        beam: &Beam,
+        beam: &IncidentFactors,
         incidence: &Incidence,
-        to: &Outgoing<R>,
+        to: &ScatteredRay<R>,
     ) -> [Complex<R>; 4] {
         let Complex64 { re, im } = self.epsilon;
         let q = root(-(to.sin * to.sin) + re, im);
@@ -183,9 +190,9 @@ impl Microroughness {
     #[inline(always)]
     fn transmitted<R: Real>(
         &self,
-        beam: &Beam,
+        beam: &IncidentFactors,
         incidence: &Incidence,
-        to: &Outgoing<R>,
+        to: &ScatteredRay<R>,
     ) -> [Complex<R>; 4] {
         let (index, epsilon) = (self.index, self.epsilon);
         let kappa = to.sin * index.re;
@@ -207,15 +214,20 @@ impl Microroughness {
     }
 
     /// Amplitude per √PSD.
-    fn amplitude(&self, beam: &Beam, incidence: &Incidence, direction: &Direction) -> Jones {
-        let elements = self.elements(beam, incidence, &Outgoing::one(direction));
+    fn amplitude(
+        &self,
+        beam: &IncidentFactors,
+        incidence: &Incidence,
+        direction: &Direction,
+    ) -> Jones {
+        let elements = self.elements(beam, incidence, &ScatteredRay::single(direction));
         let [ss, ps, sp, pp] = elements.map(Into::into);
         Jones { ss, ps, sp, pp }
     }
 }
 
 impl Brdf for Microroughness {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.rough.common
     }
 
@@ -225,8 +237,8 @@ impl Brdf for Microroughness {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        let lit = Lit { surface: self, beam: self.beam(incidence), incidence };
-        matrices(&lit, directions, out);
+        let lit = IlluminatedSurface { surface: self, beam: self.beam(incidence), incidence };
+        evaluate(&lit, directions, out);
     }
 
     fn jones(&self, incidence: &Incidence, direction: &Direction) -> Option<Jones> {
@@ -241,12 +253,17 @@ impl Brdf for Microroughness {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, Model, Mueller, Node, models, optics::Index, spec::Value};
+    use crate::{
+        Basis, Geometry, Mode, Model, Mueller, ParameterNode, models, optics::RefractiveIndex,
+        spec::ParameterValue,
+    };
 
     fn glass(side: i32, mode: Mode) -> Model {
-        let node = Node::with_defaults(&super::SPEC.class, mode)
-            .with("type", Value::Integer(side))
-            .and_then(|node| node.with("substrate", Value::Index(Index::constant(1.5, 0.0))))
+        let node = ParameterNode::with_defaults(&super::SPEC.class, mode)
+            .with("type", ParameterValue::Integer(side))
+            .and_then(|node| {
+                node.with("substrate", ParameterValue::Index(RefractiveIndex::constant(1.5, 0.0)))
+            })
             .unwrap();
         models::build(&node).unwrap()
     }

@@ -8,11 +8,11 @@
 //! J. M. Elson, *Multilayer-coated optics: guided-wave coupling and scattering by means of
 //! interface random roughness*, J. Opt. Soc. Am. A 12, 729 (1995).
 
-use super::{ROUGHNESS, Rough, STACK, coherent::Coherent};
+use super::{ROUGHNESS, RoughSurface, STACK, coherent::CorrelatedInterfaces};
 use crate::{
-    ParamError,
+    ParameterError,
     models::{Brdf, COMMON},
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
     stack::Stack,
 };
 
@@ -28,30 +28,30 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let rough = Rough::read(node)?;
+        let rough = RoughSurface::read(node)?;
         let films = node.member::<Stack>("stack")?.at(rough.common.lambda);
         let layer = node.integer("this_layer");
         let interface =
             usize::try_from(layer).ok().filter(|&m| m <= films.len()).ok_or_else(|| {
                 let problem = format!("{layer} is not an interface from 0 to {}", films.len());
-                ParamError::new("this_layer", problem)
+                ParameterError::new("this_layer", problem)
             })?;
-        Ok(Box::new(Coherent::new(rough, &films, interface..interface + 1)))
+        Ok(Box::new(CorrelatedInterfaces::new(rough, &films, interface..interface + 1)))
     },
 };
 
-const OWN: &[Param] =
-    &[Param::integer("this_layer", "0", "The rough interface; 0 is the face of the substrate")];
+const OWN: &[Parameter] =
+    &[Parameter::integer("this_layer", "0", "The rough interface; 0 is the face of the substrate")];
 
 #[cfg(test)]
 mod tests {
     use crate::{
-        Basis, Geometry, Mode, Node, models,
-        spec::{self, Value},
+        Basis, Geometry, Mode, ParameterNode, models,
+        spec::{self, ParameterValue},
     };
 
-    fn node(name: &str) -> Node {
-        Node::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+    fn node(name: &str) -> ParameterNode {
+        ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
     }
 
     #[test]
@@ -59,9 +59,10 @@ mod tests {
         let at = Geometry { theta_i: 0.9, theta_s: 0.5, phi_s: 2.1, rotation: 0.3 };
         for side in [0, 1, 2, 3] {
             let build = |name: &str| {
-                let node = node(name).with("type", Value::Integer(side)).unwrap();
-                let glass = crate::optics::Index::constant(1.5, 0.0);
-                models::build(&node.with("substrate", Value::Index(glass)).unwrap()).unwrap()
+                let node = node(name).with("type", ParameterValue::Integer(side)).unwrap();
+                let glass = crate::optics::RefractiveIndex::constant(1.5, 0.0);
+                models::build(&node.with("substrate", ParameterValue::Index(glass)).unwrap())
+                    .unwrap()
             };
             let bare = build("Microroughness_BRDF_Model").mueller(&at, Basis::Psps);
             let stack = build("Roughness_Stack_BRDF_Model").mueller(&at, Basis::Psps);
@@ -73,7 +74,8 @@ mod tests {
     fn an_interface_that_does_not_exist_is_refused() {
         for layer in [-1, 1] {
             let node = node("Roughness_Stack_BRDF_Model");
-            let error = models::build(&node.with("this_layer", Value::Integer(layer)).unwrap());
+            let error =
+                models::build(&node.with("this_layer", ParameterValue::Integer(layer)).unwrap());
             assert_eq!(error.err().unwrap().parameter, "this_layer");
         }
     }

@@ -9,11 +9,11 @@
 //! T. A. Germer, *Measurement of roughness of two interfaces of a dielectric film by scattering
 //! ellipsometry*, Phys. Rev. Lett. 85, 349 (2000).
 
-use super::{ROUGHNESS, coherent::Coherent};
+use super::{ROUGHNESS, coherent::CorrelatedInterfaces};
 use crate::{
-    ParamError,
+    ParameterError,
     models::{Brdf, COMMON},
-    spec::{Class, Laws, Param, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -28,16 +28,16 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             ROUGHNESS,
             &[
-                Param::index("film", "(1.46,0)", "Index of the film"),
-                Param::number("thickness", "0.05", "um", "Thickness of the film"),
-                Param::integer("face", "1", "The rough face: 1 buried, 2 exposed"),
+                Parameter::index("film", "(1.46,0)", "Index of the film"),
+                Parameter::number("thickness", "0.05", "um", "Thickness of the film"),
+                Parameter::integer("face", "1", "The rough face: 1 buried, 2 exposed"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| match node.integer("face") {
-        1 => Coherent::one_film(node, 0..1),
-        2 => Coherent::one_film(node, 1..2),
-        face => Err(ParamError::new("face", format!("{face} is neither 1 nor 2"))),
+        1 => CorrelatedInterfaces::one_film(node, 0..1),
+        2 => CorrelatedInterfaces::one_film(node, 1..2),
+        face => Err(ParameterError::new("face", format!("{face} is neither 1 nor 2"))),
     },
 };

@@ -9,10 +9,10 @@
 
 use std::slice;
 
-use super::{ROUGHNESS, Rough, STACK, interfaces::Interfaces};
+use super::{ROUGHNESS, RoughSurface, STACK, interfaces::StackContrast};
 use crate::{
     Direction, Incidence, Mueller,
-    models::{Brdf, COMMON, Common},
+    models::{Brdf, COMMON, CommonParameters},
     spec::{Class, Laws, Spec},
     stack::Stack,
 };
@@ -29,21 +29,21 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let rough = Rough::read(node)?;
+        let rough = RoughSurface::read(node)?;
         let films = node.member::<Stack>("stack")?.at(rough.common.lambda);
-        let interfaces = Interfaces::new(&rough.common, &films);
+        let interfaces = StackContrast::new(&rough.common, &films);
         Ok(Box::new(UncorrelatedStack { rough, interfaces }))
     },
 };
 
 /// A film stack with independent roughness at every interface.
 pub struct UncorrelatedStack {
-    rough: Rough,
-    interfaces: Interfaces,
+    rough: RoughSurface,
+    interfaces: StackContrast,
 }
 
 impl Brdf for UncorrelatedStack {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.rough.common
     }
 
@@ -54,9 +54,14 @@ impl Brdf for UncorrelatedStack {
     }
 
     fn mueller_batch(&self, incidence: &Incidence, directions: &[Direction], out: &mut [Mueller]) {
-        self.interfaces.amplitudes(incidence, directions, self.interfaces.all(), |place, jones| {
-            let sum = jones.iter().fold(Mueller::ZERO, |sum, j| sum + j.mueller());
-            out[place] = sum * self.rough.density(incidence, &directions[place]);
-        });
+        self.interfaces.amplitudes(
+            incidence,
+            directions,
+            self.interfaces.every(),
+            |place, jones| {
+                let sum = jones.iter().fold(Mueller::ZERO, |sum, j| sum + j.mueller());
+                out[place] = sum * self.rough.density(incidence, &directions[place]);
+            },
+        );
     }
 }

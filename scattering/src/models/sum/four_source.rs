@@ -4,7 +4,7 @@
 //!
 //! T. A. Germer and E. Marx, Appl. Opt. 43, 1266 (2004), for sums of sources.
 
-use super::weighted::{Weighted, source};
+use super::weighted::{WeightedSum, source};
 use crate::{
     models::{Brdf, COMMON},
     spec::{Class, Laws, Spec},
@@ -27,5 +27,5 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         ],
         laws: Laws::NOT_PASSIVE,
     },
-    build: |node| Ok(Box::new(Weighted::read(node, 4)?)),
+    build: |node| Ok(Box::new(WeightedSum::read(node, 4)?)),
 };

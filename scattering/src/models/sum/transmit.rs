@@ -20,9 +20,9 @@ use num_complex::Complex64;
 
 use crate::{
     Basis, Direction, Incidence, Model, Mueller,
-    models::{self, Brdf, COMMON, Common, Spot},
+    models::{self, Brdf, COMMON, CommonParameters, LobeSupport},
     optics::film::Films,
-    spec::{Class, Family, Laws, Param, Spec},
+    spec::{Class, Family, Laws, Parameter, Spec},
     stack::Stack,
 };
 
@@ -37,14 +37,14 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         params: &[
             COMMON,
             &[
-                Param::member(
+                Parameter::member(
                     "model",
                     Family::Brdf,
                     "BRDF_Model",
                     "Microroughness_BRDF_Model",
                     "The model behind the face",
                 ),
-                Param::member(
+                Parameter::member(
                     "films",
                     Family::Stack,
                     "StackModel",
@@ -56,7 +56,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         laws: Laws::NOT_PASSIVE,
     },
     build: |node| {
-        let common = Common::read(node)?;
+        let common = CommonParameters::read(node)?;
         let model = Model::new(models::nested(node, "model", &common)?, node.mode);
         let films = node.member::<Stack>("films")?.at(common.lambda);
         let films = Films::new(&films, Complex64::ONE, common.substrate, common.lambda);
@@ -66,7 +66,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 /// A model behind a smooth face.
 pub struct Transmit {
-    common: Common,
+    common: CommonParameters,
     model: Model,
     films: Films,
     /// n.
@@ -105,25 +105,25 @@ impl Transmit {
 
     /// A cone inside as it is seen outside, where its rim is no circle any more; none if it is
     /// reflected totally.
-    fn outside(&self, spot: Spot) -> Option<Spot> {
-        let (x, y) = (self.index * spot.axis.x, self.index * spot.axis.y);
+    fn outside(&self, support: LobeSupport) -> Option<LobeSupport> {
+        let (x, y) = (self.index * support.axis.x, self.index * support.axis.y);
         let cos = (1.0 - x * x - y * y).sqrt();
-        let half_angle = spot.half_angle * self.index * spot.axis.z / cos;
-        (half_angle < 1.0).then(|| Spot { axis: DVec3::new(x, y, cos), half_angle })
+        let half_angle = support.half_angle * self.index * support.axis.z / cos;
+        (half_angle < 1.0).then(|| LobeSupport { axis: DVec3::new(x, y, cos), half_angle })
     }
 }
 
 impl Brdf for Transmit {
-    fn common(&self) -> &Common {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
-    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
-        let spots = self.model.spots(&self.beam_inside(incidence).0);
+    fn lobe_supports(&self, incidence: &Incidence) -> Vec<LobeSupport> {
+        let supports = self.model.lobe_supports(&self.beam_inside(incidence).0);
         if !self.common.side.to_below() {
-            return spots;
+            return supports;
         }
-        spots.into_iter().filter_map(|spot| self.outside(spot)).collect()
+        supports.into_iter().filter_map(|support| self.outside(support)).collect()
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
@@ -154,22 +154,25 @@ impl Brdf for Transmit {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, Node, models, optics::Index, spec::Value};
+    use crate::{
+        Basis, Geometry, Mode, ParameterNode, models, optics::RefractiveIndex, spec::ParameterValue,
+    };
 
     #[test]
     fn without_contrast_the_face_is_invisible() {
         let at = Geometry { theta_i: 0.4, theta_s: 0.9, phi_s: 1.0, rotation: 0.0 };
         for side in [0, 1, 2, 3] {
             let vacuum = |name: &str| {
-                Node::with_defaults(&models::find(name).unwrap().class, Mode::Sound)
-                    .with("substrate", Value::Index(Index::constant(1.0, 0.0)))
-                    .and_then(|node| node.with("type", Value::Integer(side)))
+                ParameterNode::with_defaults(&models::find(name).unwrap().class, Mode::Sound)
+                    .with("substrate", ParameterValue::Index(RefractiveIndex::constant(1.0, 0.0)))
+                    .and_then(|node| node.with("type", ParameterValue::Integer(side)))
                     .unwrap()
             };
             let inner = vacuum("Lambertian_BRDF_Model");
             let bare = models::build(&inner).unwrap().mueller(&at, Basis::Psps);
-            let node =
-                vacuum(super::SPEC.class.name).with("model", Value::Member(inner.into())).unwrap();
+            let node = vacuum(super::SPEC.class.name)
+                .with("model", ParameterValue::Member(inner.into()))
+                .unwrap();
             let behind = models::build(&node).unwrap().mueller(&at, Basis::Psps);
             assert!((bare - behind).largest() < 1e-15, "type {side}");
         }

@@ -8,11 +8,11 @@
 //!
 //! T. A. Germer and E. Marx, Appl. Opt. 43, 1266 (2004), for sums of sources.
 
-use super::weighted::{Source, Weighted, source};
+use super::weighted::{WeightedSource, WeightedSum, source};
 use crate::{
-    Direction, Incidence, Mueller, Node, ParamError,
-    models::{Brdf, COMMON, Common, Spot},
-    spec::{Class, Laws, Param, Spec},
+    Direction, Incidence, Mueller, ParameterError, ParameterNode,
+    models::{Brdf, COMMON, CommonParameters, LobeSupport},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// How programs name, parameterize and build it.
@@ -27,46 +27,46 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             &source("factor1", "source1", "Weight of the first source", "First source"),
             &source("factor2", "source2", "Weight of the second source", "Second source"),
-            &[Param::number("correlation", "0", "1", "Degree of coherence, from -1 to 1")],
+            &[Parameter::number("correlation", "0", "1", "Degree of coherence, from -1 to 1")],
         ],
         laws: Laws::NOT_PASSIVE,
     },
     build,
 };
 
-fn build(node: &Node) -> Result<Box<dyn Brdf>, ParamError> {
-    let sum = Weighted::read(node, 2)?;
+fn build(node: &ParameterNode) -> Result<Box<dyn Brdf>, ParameterError> {
+    let sum = WeightedSum::read(node, 2)?;
     let correlation = node.number("correlation");
     if !(-1.0..=1.0).contains(&correlation) {
         let problem = format!("{correlation} is not from -1 to 1");
-        return Err(ParamError::new("correlation", problem));
+        return Err(ParameterError::new("correlation", problem));
     }
     if correlation == 0.0 {
         return Ok(Box::new(sum));
     }
     if let Some(at) = sum.sources.iter().position(|source| !source.is_coherent()) {
         let problem = format!("source{} depolarizes: only 0 is possible", at + 1);
-        return Err(ParamError::new("correlation", problem));
+        return Err(ParameterError::new("correlation", problem));
     }
-    Ok(Box::new(Coherent { sum, correlation }))
+    Ok(Box::new(CoherentSum { sum, correlation }))
 }
 
-struct Coherent {
-    sum: Weighted,
+struct CoherentSum {
+    sum: WeightedSum,
     correlation: f64,
 }
 
-impl Brdf for Coherent {
-    fn common(&self) -> &Common {
+impl Brdf for CoherentSum {
+    fn common(&self) -> &CommonParameters {
         &self.sum.common
     }
 
-    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
-        self.sum.spots(incidence)
+    fn lobe_supports(&self, incidence: &Incidence) -> Vec<LobeSupport> {
+        self.sum.lobe_supports(incidence)
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
-        let jones = |source: &Source| {
+        let jones = |source: &WeightedSource| {
             source.jones(incidence, direction).expect("a coherent model has a Jones matrix")
         };
         let (first, second) = (jones(&self.sum.sources[0]), jones(&self.sum.sources[1]));
@@ -78,18 +78,18 @@ impl Brdf for Coherent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Basis, Geometry, Mode, Value, models, optics::Index, spec};
+    use crate::{Basis, Geometry, Mode, ParameterValue, models, optics::RefractiveIndex, spec};
 
-    fn with(node: Node, name: &str, value: Value) -> Node {
+    fn with(node: ParameterNode, name: &str, value: ParameterValue) -> ParameterNode {
         node.with(name, value).unwrap()
     }
 
-    fn defaults(name: &str, mode: Mode) -> Node {
-        Node::with_defaults(spec::find_class(name).unwrap(), mode)
+    fn defaults(name: &str, mode: Mode) -> ParameterNode {
+        ParameterNode::with_defaults(spec::find_class(name).unwrap(), mode)
     }
 
-    fn number(x: f64) -> Value {
-        Value::Number(x)
+    fn number(x: f64) -> ParameterValue {
+        ParameterValue::Number(x)
     }
 
     #[test]
@@ -106,7 +106,7 @@ mod tests {
     fn a_depolarizing_source_cannot_be_coherent() {
         let body = defaults("Lambertian_BRDF_Model", Mode::Sound);
         let node = with(defaults(SPEC.class.name, Mode::Sound), "correlation", number(0.5));
-        let node = with(node, "source2", Value::Member(body.into()));
+        let node = with(node, "source2", ParameterValue::Member(body.into()));
         assert_eq!(models::build(&node).err().unwrap().parameter, "correlation");
     }
 
@@ -125,13 +125,13 @@ mod tests {
     #[test]
     fn an_absorbing_binder_is_refused_by_compat_only() {
         let build = |mode| {
-            let glass = || Value::Index(Index::constant(1.5, 0.01));
+            let glass = || ParameterValue::Index(RefractiveIndex::constant(1.5, 0.01));
             let binder =
                 with(defaults("Diffuse_Subsurface_BRDF_Model", mode), "substrate", glass());
             let body = with(defaults("Lambertian_BRDF_Model", mode), "substrate", glass());
             let node = with(defaults(SPEC.class.name, mode), "substrate", glass());
-            let node = with(node, "source1", Value::Member(binder.into()));
-            models::build(&with(node, "source2", Value::Member(body.into()))).err()
+            let node = with(node, "source1", ParameterValue::Member(binder.into()));
+            models::build(&with(node, "source2", ParameterValue::Member(body.into()))).err()
         };
         assert_eq!(build(Mode::Sound), None);
         assert_eq!(build(Mode::Compat).unwrap().parameter, "source1.substrate");

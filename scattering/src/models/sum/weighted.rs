@@ -8,11 +8,11 @@
 use std::slice;
 
 use crate::{
-    Basis, Defect, Direction, Incidence, Jones, Mode, Mueller, Node, ParamError,
+    Basis, Defect, Direction, Incidence, Jones, Mode, Mueller, ParameterError, ParameterNode,
     geometry::beams,
-    models::{Brdf, Common, Spot},
+    models::{Brdf, CommonParameters, LobeSupport},
     polarization::change_basis,
-    spec::{Family, Param},
+    spec::{Family, Parameter},
 };
 
 /// The class that sets its k to 0 in NIST's library.
@@ -24,44 +24,54 @@ pub(super) const fn source(
     source: &'static str,
     factor_doc: &'static str,
     source_doc: &'static str,
-) -> [Param; 2] {
+) -> [Parameter; 2] {
     [
-        Param::number(factor, "1", "1", factor_doc),
-        Param::member(source, Family::Brdf, "BRDF_Model", "Microroughness_BRDF_Model", source_doc),
+        Parameter::number(factor, "1", "1", factor_doc),
+        Parameter::member(
+            source,
+            Family::Brdf,
+            "BRDF_Model",
+            "Microroughness_BRDF_Model",
+            source_doc,
+        ),
     ]
 }
 
 /// One source with its weight.
-pub(super) struct Source {
+pub(super) struct WeightedSource {
     factor: f64,
     model: Box<dyn Brdf>,
 }
 
-impl Source {
+impl WeightedSource {
     /// The source number `number` of `node`.
-    pub(super) fn read(node: &Node, common: &Common, number: usize) -> Result<Self, ParamError> {
+    pub(super) fn read(
+        node: &ParameterNode,
+        common: &CommonParameters,
+        number: usize,
+    ) -> Result<Self, ParameterError> {
         let (factor_name, name) = (format!("factor{number}"), format!("source{number}"));
         let factor = node.number(&factor_name);
         if !(factor >= 0.0 && factor.is_finite()) {
             let problem = format!("{factor} is negative or not finite");
-            return Err(ParamError::new(&factor_name, problem));
+            return Err(ParameterError::new(&factor_name, problem));
         }
         let model = node.member::<dyn Brdf>(&name)?;
         check_same(common, model.common(), &name)?;
         let zeroes_k = node.child(&name).class.name == ZEROES_K;
         if zeroes_k && common.substrate.im != 0.0 && node.reproduces(Defect::SumAbsorbing) {
             let problem = "an absorbing substrate differs from that of the sum, which sees k = 0";
-            return Err(ParamError::new(&format!("{name}.substrate"), problem));
+            return Err(ParameterError::new(&format!("{name}.substrate"), problem));
         }
         Ok(Self { factor, model })
     }
 
     /// The sources 1 to `count` of `node`.
     pub(super) fn read_all(
-        node: &Node,
-        common: &Common,
+        node: &ParameterNode,
+        common: &CommonParameters,
         count: usize,
-    ) -> Result<Vec<Self>, ParamError> {
+    ) -> Result<Vec<Self>, ParameterError> {
         (1..=count).map(|number| Self::read(node, common, number)).collect()
     }
 
@@ -70,16 +80,20 @@ impl Source {
         Some(self.model.jones(incidence, direction)?.scaled(self.factor.sqrt()))
     }
 
-    /// Whether [`Source::jones`] answers in the basis of the sum.
+    /// Whether [`WeightedSource::jones`] answers in the basis of the sum.
     pub(super) fn is_coherent(&self) -> bool {
         self.model.is_coherent() && self.model.native_basis() == Basis::Psps
     }
 }
 
-fn check_same(sum: &Common, source: &Common, name: &str) -> Result<(), ParamError> {
+fn check_same(
+    sum: &CommonParameters,
+    source: &CommonParameters,
+    name: &str,
+) -> Result<(), ParameterError> {
     let error = |parameter: &str, got: String, own: String| {
         let problem = format!("{got} differs from the {own} of the sum");
-        Err(ParamError::new(&format!("{name}.{parameter}"), problem))
+        Err(ParameterError::new(&format!("{name}.{parameter}"), problem))
     };
     if source.lambda != sum.lambda {
         return error("lambda", source.lambda.to_string(), sum.lambda.to_string());
@@ -94,23 +108,27 @@ fn check_same(sum: &Common, source: &Common, name: &str) -> Result<(), ParamErro
 }
 
 /// Σ factor_j F_j.
-pub(super) struct Weighted {
-    pub(super) common: Common,
-    pub(super) sources: Vec<Source>,
+pub(super) struct WeightedSum {
+    pub(super) common: CommonParameters,
+    pub(super) sources: Vec<WeightedSource>,
     mode: Mode,
 }
 
-impl Weighted {
+impl WeightedSum {
     /// The incoherent sum of `count` sources.
-    pub(super) fn read(node: &Node, count: usize) -> Result<Self, ParamError> {
-        let common = Common::read(node)?;
-        Ok(Self { common, sources: Source::read_all(node, &common, count)?, mode: node.mode })
+    pub(super) fn read(node: &ParameterNode, count: usize) -> Result<Self, ParameterError> {
+        let common = CommonParameters::read(node)?;
+        Ok(Self {
+            common,
+            sources: WeightedSource::read_all(node, &common, count)?,
+            mode: node.mode,
+        })
     }
 
     /// What `source` answered, in the basis of the sum and times its factor.
     fn weigh(
         &self,
-        source: &Source,
+        source: &WeightedSource,
         incidence: &Incidence,
         directions: &[Direction],
         answers: &mut [Mueller],
@@ -126,13 +144,13 @@ impl Weighted {
     }
 }
 
-impl Brdf for Weighted {
-    fn common(&self) -> &Common {
+impl Brdf for WeightedSum {
+    fn common(&self) -> &CommonParameters {
         &self.common
     }
 
-    fn spots(&self, incidence: &Incidence) -> Vec<Spot> {
-        self.sources.iter().flat_map(|source| source.model.spots(incidence)).collect()
+    fn lobe_supports(&self, incidence: &Incidence) -> Vec<LobeSupport> {
+        self.sources.iter().flat_map(|source| source.model.lobe_supports(incidence)).collect()
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {

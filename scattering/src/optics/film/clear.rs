@@ -7,7 +7,7 @@
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.6.
 
-use super::{Films, Layer, Medium, SMALL_PHASE, Wave, root};
+use super::{FilmLayer, FilmMedium, Films, IncidentSide, SMALL_PHASE, root};
 use crate::lanes::{Complex, Real};
 
 /// (1, Y) of s and of p, carried through films.
@@ -26,18 +26,18 @@ impl Films {
     #[inline(always)]
     pub(crate) fn clear_fields<R: Real>(
         &self,
-        from: Wave,
+        from: IncidentSide,
         kappa_squared: R,
         depth: f64,
     ) -> [Complex<R>; 3] {
         let (entry, exit) = self.ends(from);
         // From the exit face, positive towards the source.
         let mut distance = match from {
-            Wave::FromOutside => self.thickness - depth,
-            Wave::FromSubstrate => depth,
+            IncidentSide::FromOutside => self.thickness - depth,
+            IncidentSide::FromSubstrate => depth,
         };
         let y = exit.admittance_pair(kappa_squared);
-        let one = Complex::real(kappa_squared.all(1.0));
+        let one = Complex::real(kappa_squared.splat(1.0));
         let mut v = [[one, y[0]], [one, y[1]]];
         let mut there = None;
         let last = self.layers.len().saturating_sub(1);
@@ -47,7 +47,7 @@ impl Films {
             if there.is_none() && (distance <= layer.thickness || place == last) {
                 let part = self.part(layer.medium, distance.min(layer.thickness));
                 let inside = passed(v, &part, q);
-                v = passed(inside, &Layer { phase: layer.phase - part.phase, ..*layer }, q);
+                v = passed(inside, &FilmLayer { phase: layer.phase - part.phase, ..*layer }, q);
                 there = Some(inside);
             } else {
                 v = passed(v, layer, q);
@@ -61,7 +61,7 @@ impl Films {
     }
 }
 
-impl Medium {
+impl FilmMedium {
     /// Y of s and p.
     #[inline(always)]
     fn admittance_pair<R: Real>(&self, kappa_squared: R) -> [Complex<R>; 2] {
@@ -79,7 +79,7 @@ fn amplitude<R: Real>(v: [Complex<R>; 2], y0: Complex<R>) -> Complex<R> {
 
 /// What the far face of a film without loss turns `v` into at its near face.
 #[inline(always)]
-pub(super) fn passed<R: Real>(v: Tangential<R>, layer: &Layer, q: R) -> Tangential<R> {
+pub(super) fn passed<R: Real>(v: Tangential<R>, layer: &FilmLayer, q: R) -> Tangential<R> {
     if layer.phase == 0.0 {
         return v;
     }
@@ -89,8 +89,8 @@ pub(super) fn passed<R: Real>(v: Tangential<R>, layer: &Layer, q: R) -> Tangenti
     let series = d2 * (1.0 / 42.0) + -1.0;
     let series = d2 * (1.0 / 20.0) * series + 1.0;
     let series = (-(d2 * (1.0 / 6.0) * series) + 1.0) * layer.phase;
-    let sin_over_q = (d2 - SMALL_PHASE * SMALL_PHASE).choose(sin / q, series);
-    let Medium { epsilon, inverse_epsilon, .. } = layer.medium;
+    let sin_over_q = (d2 - SMALL_PHASE * SMALL_PHASE).select(sin / q, series);
+    let FilmMedium { epsilon, inverse_epsilon, .. } = layer.medium;
     let [[e, h], [u, w]] = v;
     [
         [e * cos + h.turned_back(sin_over_q), h * cos + e.turned_back(q * sin)],

@@ -7,19 +7,19 @@ use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// The distinct Zernike functions that an expansion uses.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Harmonics {
-    all: Vec<Harmonic>,
+pub(super) struct ZernikeFunctions {
+    all: Vec<ZernikeFunction>,
 }
 
 #[derive(Clone, Debug)]
-struct Harmonic {
+struct ZernikeFunction {
     n: u32,
     k: i32,
     /// Coefficients of ρ^|k|, ρ^(|k|+2), …, ρ^n; none where n − |k| is odd or negative.
     radial: Vec<f64>,
 }
 
-impl Harmonics {
+impl ZernikeFunctions {
     /// How many there are.
     pub(super) fn len(&self) -> usize {
         self.all.len()
@@ -29,7 +29,7 @@ impl Harmonics {
     pub(super) fn place(&mut self, n: u32, k: i32) -> usize {
         let known = self.all.iter().position(|h| (h.n, h.k) == (n, k));
         known.unwrap_or_else(|| {
-            self.all.push(Harmonic { n, k, radial: radial(n, k.unsigned_abs()) });
+            self.all.push(ZernikeFunction { n, k, radial: radial(n, k.unsigned_abs()) });
             self.all.len() - 1
         })
     }
@@ -43,7 +43,7 @@ impl Harmonics {
     }
 }
 
-impl Harmonic {
+impl ZernikeFunction {
     fn at(&self, rho: f64, phi: f64) -> f64 {
         let square = rho * rho;
         let polynomial = self.radial.iter().rev().fold(0.0, |sum, c| sum * square + c);
@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn the_edge_of_the_disk_is_the_horizon() {
-        let mut harmonics = Harmonics::default();
+        let mut harmonics = ZernikeFunctions::default();
         let place = harmonics.place(5, 1);
         let mut out = [0.0];
         harmonics.evaluate(std::f64::consts::FRAC_PI_2, 0.0, &mut out);

@@ -2,7 +2,7 @@
 
 /// One line: `i j n m k l p c`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Line {
+pub(super) struct CoefficientLine {
     /// Row of the Mueller matrix, 1 to 4.
     pub i: usize,
     /// Column, from i to 4.
@@ -25,7 +25,7 @@ pub(super) struct Line {
 const HIGHEST_ORDER: u32 = 40;
 
 /// Reads the lines of `text`; blank ones are passed over.
-pub(super) fn read(text: &str) -> Result<Vec<Line>, String> {
+pub(super) fn read(text: &str) -> Result<Vec<CoefficientLine>, String> {
     let mut lines = Vec::new();
     for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
         lines.push(read_line(line).map_err(|problem| format!("line {}: {problem}", number + 1))?);
@@ -36,13 +36,13 @@ pub(super) fn read(text: &str) -> Result<Vec<Line>, String> {
     Ok(lines)
 }
 
-fn read_line(line: &str) -> Result<Line, String> {
+fn read_line(line: &str) -> Result<CoefficientLine, String> {
     let words: Vec<&str> =
         line.split([',', ' ', '\t', '\r']).filter(|word| !word.is_empty()).collect();
     let [i, j, n, m, k, l, p, c] = words[..] else {
         return Err(format!("{} columns where `i j n m k l p c` are eight", words.len()));
     };
-    let line = Line {
+    let line = CoefficientLine {
         i: parse("i", i)?,
         j: parse("j", j)?,
         n: parse("n", n)?,

@@ -21,28 +21,28 @@
 use num_complex::Complex64;
 
 use crate::{
-    optics::film::{Films, Pair},
+    optics::film::{Films, SpAmplitudes},
     special::{
         harmonics::{Harmonics, Scalar},
         laguerre,
     },
-    tmatrix::{Matrix, TMatrix, apply, is_finite, solve, waves::Multipole},
+    tmatrix::{ComplexMatrix, TMatrix, apply, is_finite, solve, waves::Multipole},
 };
 
 const I: Complex64 = Complex64::I;
 
 /// The answers w = R v of all orders m.
-pub(super) struct Response(Vec<Block>);
+pub(super) struct MultipoleResponse(Vec<OrderBlock>);
 
-struct Block {
+struct OrderBlock {
     /// Rows that are kept, electric ones first.
-    matrix: Matrix,
+    matrix: ComplexMatrix,
     rows: usize,
 }
 
 /// How w follows from T and A: the parameter `order`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Method {
+pub(super) enum ImageMethod {
     /// Exactly.
     Exact,
     /// Without the image.
@@ -51,7 +51,7 @@ pub(super) enum Method {
     Series(usize),
 }
 
-impl Response {
+impl MultipoleResponse {
     /// The answer of `particle` at the height q over the face of `films`, for l up to `l_out`;
     /// nothing if it is not finite.
     pub(super) fn new(
@@ -59,14 +59,14 @@ impl Response {
         films: &Films,
         q: f64,
         normal_only: bool,
-        method: Method,
+        method: ImageMethod,
         l_out: usize,
     ) -> Option<Self> {
-        let image = Image::new(films, q, normal_only, particle);
-        let block = |(m, t): (usize, &Matrix)| {
+        let image = ImageOperator::new(films, q, normal_only, particle);
+        let block = |(m, t): (usize, &ComplexMatrix)| {
             let matrix = answer(t, &image.block(m), method)?;
             let rows = (l_out + 1).saturating_sub(Harmonics::l_min(m));
-            Some(Block { matrix, rows })
+            Some(OrderBlock { matrix, rows })
         };
         particle.blocks.iter().enumerate().map(block).collect::<Option<_>>().map(Self)
     }
@@ -75,7 +75,7 @@ impl Response {
     pub(super) fn apply(&self, regular: &[Multipole]) -> Vec<(usize, usize, Multipole)> {
         let mut out = Vec::new();
         let mut start = 0;
-        for (m, Block { matrix, rows }) in self.0.iter().enumerate() {
+        for (m, OrderBlock { matrix, rows }) in self.0.iter().enumerate() {
             let size = matrix.nrows() / 2;
             let v = &regular[start..start + size];
             start += size;
@@ -86,20 +86,20 @@ impl Response {
 }
 
 /// R with w = R v.
-fn answer(t: &Matrix, image: &Matrix, method: Method) -> Option<Matrix> {
-    let one = Matrix::identity(t.nrows(), t.ncols());
-    let checked = |matrix: Matrix| is_finite(&matrix).then_some(matrix);
+fn answer(t: &ComplexMatrix, image: &ComplexMatrix, method: ImageMethod) -> Option<ComplexMatrix> {
+    let one = ComplexMatrix::identity(t.nrows(), t.ncols());
+    let checked = |matrix: ComplexMatrix| is_finite(&matrix).then_some(matrix);
     match method {
-        Method::Alone => checked(t.clone()),
-        Method::Exact => checked(solve(&checked(one - t * image)?, t)),
-        Method::Series(terms) => {
+        ImageMethod::Alone => checked(t.clone()),
+        ImageMethod::Exact => checked(solve(&checked(one - t * image)?, t)),
+        ImageMethod::Series(terms) => {
             let whole = checked(solve(t, &one))? - image;
             let inverse = |row: usize| whole[(row, row)].inv();
             let (rows, columns) = (whole.nrows(), whole.ncols());
-            let first = Matrix::from_fn(rows, columns, |row, column| {
+            let first = ComplexMatrix::from_fn(rows, columns, |row, column| {
                 if row == column { inverse(row) } else { Complex64::ZERO }
             });
-            let step = Matrix::from_fn(rows, columns, |row, column| {
+            let step = ComplexMatrix::from_fn(rows, columns, |row, column| {
                 if row == column { Complex64::ZERO } else { -inverse(row) * whole[(row, column)] }
             });
             let sum = (1..terms).fold(first.clone(), |sum, _| &first + &step * sum);
@@ -109,19 +109,19 @@ fn answer(t: &Matrix, image: &Matrix, method: Method) -> Option<Matrix> {
 }
 
 /// The reflection of all multipoles at the nodes of the integral.
-struct Image {
+struct ImageOperator {
     l_max: usize,
-    nodes: Vec<Node>,
+    nodes: Vec<ImageNode>,
 }
 
-struct Node {
+struct ImageNode {
     /// Weight times e^{2iq}/(2iq) and the reflection.
-    r: Pair,
+    r: SpAmplitudes,
     /// (τ, μ) by order, l within it.
     angular: Vec<Vec<(Complex64, Complex64)>>,
 }
 
-impl Image {
+impl ImageOperator {
     fn new(films: &Films, q: f64, normal_only: bool, particle: &TMatrix) -> Self {
         let l_max = particle.l_max;
         let harmonics = Harmonics::new(l_max, particle.m_max());
@@ -133,17 +133,17 @@ impl Image {
             let scale = common * weight;
             let mut angular = vec![Vec::new(); particle.blocks.len()];
             harmonics.visit(cos, sin, |m, _, tau, mu| angular[m].push((tau, mu)));
-            Node { r: Pair { s: scale * r.s, p: scale * r.p }, angular }
+            ImageNode { r: SpAmplitudes { s: scale * r.s, p: scale * r.p }, angular }
         };
         let count = (10 * (l_max / 10 + 1)).min(100);
         Self { l_max, nodes: laguerre::rule(count).into_iter().map(node).collect() }
     }
 
     /// A of the order `m`.
-    fn block(&self, m: usize) -> Matrix {
+    fn block(&self, m: usize) -> ComplexMatrix {
         let l_min = Harmonics::l_min(m);
         let size = self.l_max + 1 - l_min;
-        let mut a = Matrix::zeros(2 * size, 2 * size);
+        let mut a = ComplexMatrix::zeros(2 * size, 2 * size);
         for column in 0..size {
             for row in 0..size {
                 let (l, to) = (l_min + column, l_min + row);
@@ -165,7 +165,7 @@ impl Image {
     /// −σ'τ and σ'μ.
     fn elements(&self, m: usize, row: usize, column: usize) -> [Complex64; 4] {
         let mut sums = [Complex64::ZERO; 4];
-        for Node { r, angular } in &self.nodes {
+        for ImageNode { r, angular } in &self.nodes {
             let (tau, mu) = angular[m][column];
             let (tau_to, mu_to) = angular[m][row];
             let (p_tau, s_tau) = (r.p * tau, r.s * tau);
@@ -192,26 +192,27 @@ mod tests {
         Films::new(&[], Complex64::ONE, n.into(), 0.6)
     }
 
-    fn distance(a: &Response, b: &Response) -> f64 {
-        let each = |(a, b): (&Block, &Block)| (&a.matrix - &b.matrix).norm_max();
+    fn distance(a: &MultipoleResponse, b: &MultipoleResponse) -> f64 {
+        let each = |(a, b): (&OrderBlock, &OrderBlock)| (&a.matrix - &b.matrix).norm_max();
         a.0.iter().zip(&b.0).map(each).fold(0.0, f64::max)
     }
 
-    fn response(n: f64, q: f64, method: Method) -> Response {
-        Response::new(&sphere(), &films(n), q, false, method, 5).unwrap()
+    fn response(n: f64, q: f64, method: ImageMethod) -> MultipoleResponse {
+        MultipoleResponse::new(&sphere(), &films(n), q, false, method, 5).unwrap()
     }
 
     #[test]
     fn over_no_substrate_the_particle_answers_alone() {
-        let alone = response(1.0, 1.0, Method::Alone);
-        assert!(distance(&response(1.0, 1.0, Method::Exact), &alone) < 1e-15);
-        assert!(distance(&response(1.5, 1.0, Method::Exact), &alone) > 1e-3);
+        let alone = response(1.0, 1.0, ImageMethod::Alone);
+        assert!(distance(&response(1.0, 1.0, ImageMethod::Exact), &alone) < 1e-15);
+        assert!(distance(&response(1.5, 1.0, ImageMethod::Exact), &alone) > 1e-3);
     }
 
     #[test]
     fn the_series_converges_to_the_exact_answer() {
-        let exact = response(1.5, 1.5, Method::Exact);
-        let [few, many] = [2, 60].map(|n| distance(&response(1.5, 1.5, Method::Series(n)), &exact));
+        let exact = response(1.5, 1.5, ImageMethod::Exact);
+        let [few, many] =
+            [2, 60].map(|n| distance(&response(1.5, 1.5, ImageMethod::Series(n)), &exact));
         assert!(many < 1e-12 && few > 1e-9, "{few} {many}");
     }
 
@@ -219,7 +220,7 @@ mod tests {
     fn the_image_of_a_dipole_far_from_the_face_is_its_reflected_wave() {
         // For q → ∞ only normal incidence counts: A_ee of l = m = 1 is r_s (3/2)/(2iq) e^{2iq}…
         let q = 1e4;
-        let image = Image::new(&films(1.5), q, true, &sphere());
+        let image = ImageOperator::new(&films(1.5), q, true, &sphere());
         let got = image.block(1)[(0, 0)];
         // τ = μ = √(3/2) at α = 0, so that A = K [−r_p + r_s]·3/2 with r_p = −r_s = 0.2.
         let expected = (2.0 * q * I).exp() / (2.0 * q * I) / 2.0 * 1.5 * (-0.4);

@@ -5,38 +5,40 @@
 
 use super::{
     bare::{Facet, UNTURNED_REFLECTION},
-    turn::{Tilted, Turn},
+    turn::{FacetOrientation, FacetRotation},
 };
 use crate::{
     Direction, Incidence, Mueller, Side,
-    geometry::Outgoing,
-    lanes::{Batch, Complex, Vectors, WIDTH, filled_up, with_widest},
+    geometry::ScatteredRay,
+    lanes::{Complex, LaneKernel, SimdLevel, WIDTH, dispatch, filled_up},
     models::{Brdf, sum_of},
-    polarization::{Signed, elements, muellers},
+    polarization::{SignedWeights, elements, muellers},
 };
 
 /// Groups of [`WIDTH`] directions whose slopes are held at a time.
 const GROUPS: usize = 32;
 
 /// The slopes of the facets that reflect a beam into directions.
-struct Slopes<'a> {
+struct SlopeKernel<'a> {
     incidence: &'a Incidence,
     directions: &'a [[Direction; WIDTH]],
     out: &'a mut [[[f64; WIDTH]; 2]],
 }
 
-impl Batch for Slopes<'_> {
+impl LaneKernel for SlopeKernel<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         for (directions, out) in self.directions.iter().zip(self.out) {
-            let to = Outgoing::several(vectors, directions);
-            *out = Tilted::between(self.incidence, &to).slopes.map(|slope| vectors.store(slope));
+            let to = ScatteredRay::batch(vectors, directions);
+            *out = FacetOrientation::between(self.incidence, &to)
+                .slopes
+                .map(|slope| vectors.store(slope));
         }
     }
 }
 
 /// The matrices of facets whose slopes have known densities.
-struct Matrices<'a> {
+struct MatrixKernel<'a> {
     facet: &'a Facet,
     incidence: &'a Incidence,
     directions: &'a [[Direction; WIDTH]],
@@ -44,15 +46,15 @@ struct Matrices<'a> {
     out: &'a mut [[Mueller; WIDTH]],
 }
 
-impl Batch for Matrices<'_> {
+impl LaneKernel for MatrixKernel<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         let Self { facet, incidence, .. } = self;
         for ((directions, density), out) in self.directions.iter().zip(self.densities).zip(self.out)
         {
-            let several = facet.several(vectors, incidence, directions, density);
-            muellers(vectors, several.jones, several.weight, out);
-            if several.is_delicate {
+            let batch = facet.batch(vectors, incidence, directions, density);
+            muellers(vectors, batch.jones, batch.weight, out);
+            if batch.is_delicate {
                 for (m, direction) in out.iter_mut().zip(directions) {
                     *m = facet.mueller(incidence, direction);
                 }
@@ -62,33 +64,33 @@ impl Batch for Matrices<'_> {
 }
 
 /// The sum of such matrices, w R(β)ᵀ M, lane by lane.
-struct Sums<'a> {
+struct SumKernel<'a> {
     facet: &'a Facet,
     incidence: &'a Incidence,
     directions: &'a [[Direction; WIDTH]],
     densities: &'a [[f64; WIDTH]],
-    weights: Signed<'a>,
+    weights: SignedWeights<'a>,
     sum: &'a mut Mueller,
 }
 
-impl Batch for Sums<'_> {
+impl LaneKernel for SumKernel<'_> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         let Self { facet, incidence, directions, densities, weights, sum } = self;
         let [weight, cos2b, sin2b] =
             [weights.weight, weights.cos2b, weights.sin2b].map(|part| part.as_chunks().0);
         let zero = vectors.load(&[0.0; WIDTH]);
         let mut sums = [[zero; 4]; 4];
         for (group, (directions, density)) in directions.iter().zip(densities).enumerate() {
-            let several = facet.several(vectors, incidence, directions, density);
-            if several.is_delicate {
+            let batch = facet.batch(vectors, incidence, directions, density);
+            if batch.is_delicate {
                 for (k, direction) in directions.iter().enumerate() {
                     weights.add(group * WIDTH + k, &facet.mueller(incidence, direction), sum);
                 }
                 continue;
             }
-            let m = elements(several.jones);
-            let w = several.weight * vectors.load(&weight[group]);
+            let m = elements(batch.jones);
+            let w = batch.weight * vectors.load(&weight[group]);
             let (c, s) =
                 (w * vectors.load(&cos2b[group]), w * (vectors.load(&sin2b[group]) * weights.sign));
             for k in 0..4 {
@@ -107,7 +109,7 @@ impl Batch for Sums<'_> {
 }
 
 /// Several bare facets met from above.
-struct Several<R> {
+struct FacetBatch<R> {
     /// |w|² J.
     jones: [Complex<R>; 4],
     /// What M of it is to be multiplied by.
@@ -130,7 +132,7 @@ impl Facet {
         let to = to.as_chunks_mut().0;
         self.with_densities(incidence, groups, |first, directions, densities| {
             let out = &mut to[first..first + directions.len()];
-            with_widest(Matrices { facet: self, incidence, directions, densities, out });
+            dispatch(MatrixKernel { facet: self, incidence, directions, densities, out });
         });
         for (m, direction) in left.iter_mut().zip(&directions[done..]) {
             *m = self.mueller(incidence, direction);
@@ -142,7 +144,7 @@ impl Facet {
         &self,
         incidence: &Incidence,
         directions: &[Direction],
-        weights: Signed<'_>,
+        weights: SignedWeights<'_>,
     ) -> Mueller {
         if !self.is_bare_from_above() {
             return sum_of(directions, weights, |directions, out| {
@@ -154,7 +156,8 @@ impl Facet {
         self.add_groups(incidence, groups, weights, &mut sum);
         if let Some(group) = filled_up(rest) {
             let [weight, cos2b, sin2b] = weights.group(groups.as_flattened().len());
-            let weights = Signed { weight: &weight, cos2b: &cos2b, sin2b: &sin2b, ..weights };
+            let weights =
+                SignedWeights { weight: &weight, cos2b: &cos2b, sin2b: &sin2b, ..weights };
             self.add_groups(incidence, &[group], weights, &mut sum);
         }
         sum
@@ -164,12 +167,12 @@ impl Facet {
         &self,
         incidence: &Incidence,
         directions: &[[Direction; WIDTH]],
-        weights: Signed<'_>,
+        weights: SignedWeights<'_>,
         sum: &mut Mueller,
     ) {
         self.with_densities(incidence, directions, |first, directions, densities| {
             let weights = weights.part(first * WIDTH..(first + directions.len()) * WIDTH);
-            with_widest(Sums { facet: self, incidence, directions, densities, weights, sum });
+            dispatch(SumKernel { facet: self, incidence, directions, densities, weights, sum });
         });
     }
 
@@ -186,23 +189,23 @@ impl Facet {
             let mut densities = [[0.0; WIDTH]; GROUPS];
             let slopes = &mut slopes[..directions.len()];
             let densities = &mut densities[..directions.len()];
-            with_widest(Slopes { incidence, directions, out: slopes });
+            dispatch(SlopeKernel { incidence, directions, out: slopes });
             self.slopes.densities(slopes, densities);
             use_them(part * GROUPS, directions, densities);
         }
     }
 
     #[inline(always)]
-    fn several<V: Vectors>(
+    fn batch<V: SimdLevel>(
         &self,
         vectors: V,
         incidence: &Incidence,
         directions: &[Direction; WIDTH],
         density: &[f64; WIDTH],
-    ) -> Several<V::Real> {
-        let to = Outgoing::several(vectors, directions);
-        let facet = Tilted::between(incidence, &to);
-        let turn = Turn::new(incidence, &to, to.cos);
+    ) -> FacetBatch<V::Vector> {
+        let to = ScatteredRay::batch(vectors, directions);
+        let facet = FacetOrientation::between(incidence, &to);
+        let turn = FacetRotation::new(incidence, &to, to.cos);
         let norm = turn.norm();
         let weight = facet.weight(vectors.load(density), to.cos * (4.0 * incidence.cos) * norm);
         let mut is_delicate = false;
@@ -212,10 +215,10 @@ impl Facet {
                 norm < f64::MIN_POSITIVE || (self.unturned && sin2 <= UNTURNED_REFLECTION);
         }
         let jones = turn.elements(self.films.bare(facet.cos(), facet.sin2));
-        Several { jones, weight, is_delicate }
+        FacetBatch { jones, weight, is_delicate }
     }
 
-    /// Whether directions go through [`Facet::several`].
+    /// Whether directions go through [`Facet::batch`].
     fn is_bare_from_above(&self) -> bool {
         self.common.side == Side::DownUp && self.films.is_bare()
     }

@@ -2,13 +2,13 @@
 
 use crate::{
     Direction, Mueller,
-    lanes::{Batch, Vectors, WIDTH, with_widest},
+    lanes::{LaneKernel, SimdLevel, WIDTH, dispatch},
 };
 
 /// A model under one beam, whose formula works on several directions.
-pub(crate) trait Several {
+pub(crate) trait BatchKernel {
     /// Puts the matrices of several directions into `out`.
-    fn several<V: Vectors>(
+    fn batch<V: SimdLevel>(
         &self,
         vectors: V,
         directions: &[Direction; WIDTH],
@@ -20,25 +20,25 @@ pub(crate) trait Several {
 }
 
 /// Puts the matrices of all `directions` into `out`, which has their number.
-pub(crate) fn matrices(of: &impl Several, directions: &[Direction], out: &mut [Mueller]) {
+pub(crate) fn evaluate(of: &impl BatchKernel, directions: &[Direction], out: &mut [Mueller]) {
     let ((directions, rest), (out, left)) = (directions.as_chunks(), out.as_chunks_mut());
-    with_widest(Groups { of, directions, out });
+    dispatch(GroupKernel { of, directions, out });
     for (m, direction) in left.iter_mut().zip(rest) {
         *m = of.one(direction);
     }
 }
 
-struct Groups<'a, S> {
+struct GroupKernel<'a, S> {
     of: &'a S,
     directions: &'a [[Direction; WIDTH]],
     out: &'a mut [[Mueller; WIDTH]],
 }
 
-impl<S: Several> Batch for Groups<'_, S> {
+impl<S: BatchKernel> LaneKernel for GroupKernel<'_, S> {
     #[inline(always)]
-    fn run<V: Vectors>(self, vectors: V) {
+    fn run<V: SimdLevel>(self, vectors: V) {
         for (directions, out) in self.directions.iter().zip(self.out) {
-            self.of.several(vectors, directions, out);
+            self.of.batch(vectors, directions, out);
         }
     }
 }
