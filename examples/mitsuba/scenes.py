@@ -1,6 +1,6 @@
 """A material on a sphere or a mesh in Mitsuba 3, without and behind a filter.
 
-    mist export gold.json --wavelengths 450,500,550,600,650 -o gold.pbsdf
+    mist export gold.json --lambda 450,500,550,600,650 -o gold.pbsdf
     python scenes.py gold.pbsdf                              # sphere.png, sphere_dolp.png, …
     python scenes.py gold.pbsdf --filter linear:90           # a linear polarizer before the camera
     python scenes.py gold.pbsdf --filter circular --mesh dragon.ply

@@ -6,29 +6,21 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{
-    Control,
-    material::{Prepared, query},
-};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use mist_engine::{Control, material::Prepared};
 use mist_runner::files::AtomicFile;
-use rise_bridge::{export::ExportError, mitsuba::pbsdf};
-use serde_json::json;
+use rise_bridge::{
+    formats::{self, ExportRequest, FileFormat, MaterialWriter},
+    mitsuba::pbsdf,
+};
 
 use super::{
-    material::{not_exported, prepared, refused},
+    material::{not_exported, prepared},
     print,
     source::Source,
     stop::Stop,
     watch::watched,
 };
-
-mod format;
-mod goniometer;
-mod klems;
-mod polarized;
-mod reflection;
-
-use format::Format;
 
 /// Write a material in the format of a renderer, or compare a table of one with it.
 ///
@@ -38,10 +30,10 @@ use format::Format;
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  mist export gold.json --format pbsdf --wavelengths 450,500,550,600,650 --grid 37x46x91 -o gold.pbsdf
-  mist export gold.json --wavelengths 450,500,550,600,650 --grid auto:2 -o gold.pbsdf
-  mist export gold.json --plugin --wavelengths 400:10:700 -o gold31.pbsdf
-  mist export gold.json --format bsdf --spectral --wavelengths 400:10:700 -o gold.bsdf
+  mist export gold.json --format pbsdf --lambda 450,500,550,600,650 --grid 37x46x91 -o gold.pbsdf
+  mist export gold.json --lambda 450,500,550,600,650 --grid auto:2 -o gold.pbsdf
+  mist export gold.json --plugin --lambda 400:10:700 -o gold31.pbsdf
+  mist export gold.json --format bsdf --spectral --lambda 400:10:700 -o gold.bsdf
   mist export gold.json --format bsdf --rgb -o gold_rgb.bsdf
   mist export gold.json --grid thetai=0:15:75,thetas=0:5:85,phis=0:10:180 -o gold.xompt
   mist export gold.json --grid auto:5 -o gold.xompt
@@ -49,13 +41,13 @@ Examples:
 pub(super) struct ExportArgs {
     /// The material, or a program.
     material: PathBuf,
-    /// What is written [default: what the name of the output says].
-    #[arg(long, value_enum)]
-    format: Option<Format>,
+    /// Format of the file [default: the format that the name of the output says].
+    #[arg(long, value_parser = format_parser())]
+    format: Option<&'static FileFormat>,
     /// Wavelengths in nm: a list, FIRST:STEP:LAST, or both mixed [default: 450,500,550,600,650 for
     /// pbsdf, 360:10:830 for colours, else 400:10:700].
-    #[arg(long, value_name = "NM")]
-    wavelengths: Option<String>,
+    #[arg(long, alias = "wavelengths", value_name = "NM")]
+    lambda: Option<String>,
     /// Nodes of the table, or auto:PERCENT, the smallest grid on which 95 % of the light is nearer
     /// than that. pbsdf: phi_d x theta_d x theta_h (37x46x91). bsdf: theta_i x side of an image
     /// (24x64), or phi_i x theta_i x side (37x20x48). GoniometerTable tables: degrees
@@ -88,76 +80,79 @@ pub(super) struct ExportArgs {
     output: Option<PathBuf>,
 }
 
-/// What every writer gets.
-struct Work<'a> {
-    args: &'a ExportArgs,
-    material: Prepared,
-    /// nm.
-    wavelengths: Vec<f64>,
-    /// Where the material is from.
-    source: Source,
-    path: &'a Path,
-    control: &'a Control,
-}
-
-impl Work<'_> {
-    /// Where a table with this `quantity` is from, as JSON.
-    fn description(&self, quantity: &str) -> String {
-        let description = json!({
-            "generator": format!("mist {}", env!("CARGO_PKG_VERSION")),
-            "material": self.source.stem(),
-            "quantity": quantity,
-            "compat": self.args.compat,
-        });
-        description.to_string()
-    }
-
-    /// Saves what `write` writes; the file appears when it is whole.
-    fn save(
-        &self,
-        write: impl FnOnce(AtomicFile) -> Result<AtomicFile, ExportError>,
-    ) -> Result<(), Stop> {
-        let path = self.path.display();
-        let failed = |error: io::Error| Stop::Failed(format!("cannot write {path}: {error}"));
-        let file = AtomicFile::create(self.path).map_err(failed)?;
-        write(file).map_err(not_exported)?.finish().map_err(failed)
-    }
-}
-
 /// Writes the file, or compares it.
 pub(super) fn export(args: &ExportArgs) -> Result<(), Stop> {
     let source = Source::read(&args.material)?;
     let material = prepared(&args.material, &source, args.compat)?;
     let label = source.stem();
-    print(&watched(args.threads, &label, |control| done(args, source, material, control))??)
+    print(&watched(args.threads, &label, |control| done(args, &source, &material, control))??)
 }
 
 fn done(
     args: &ExportArgs,
-    source: Source,
-    material: Prepared,
+    source: &Source,
+    material: &Prepared,
     control: &Control,
 ) -> Result<String, Stop> {
     match (&args.compare, &args.output) {
-        (Some(table), _) => compare(&material, table, control),
+        (Some(table), _) => compare(material, table, control),
         (None, Some(path)) => {
-            let format =
-                args.format.or_else(|| Format::of_name(path)).ok_or_else(Format::unknown)?;
-            let usual = format.wavelengths(args);
-            let wavelengths = args.wavelengths.as_deref().unwrap_or(usual);
-            let wavelengths = query::nodes("wavelengths", wavelengths).map_err(refused)?;
-            format.write(&Work { args, material, wavelengths, source, path, control })
+            let line = save(args.writer(path)?, material, &args.request(source), path, control)?;
+            Ok(format!("{}: {line}\n", path.display()))
         }
         (None, None) => Err(Stop::Refused("--output or --compare is needed".into())),
     }
 }
 
-/// The part that `auto:PERCENT` asks for; nothing for other grids.
-fn tolerance(grid: &str) -> Result<Option<f64>, Stop> {
-    let Some(percent) = grid.strip_prefix("auto:") else { return Ok(None) };
-    let part = percent.parse::<f64>().ok().filter(|x| *x > 0.0).map(|x| 0.01 * x);
-    let refused = || Stop::Refused(format!("--grid {grid}: expected a percentage above 0"));
-    part.map(Some).ok_or_else(refused)
+impl ExportArgs {
+    /// The writer of the format that the flag or the name of the output says.
+    fn writer(&self, path: &Path) -> Result<MaterialWriter, Stop> {
+        let by_name = || FileFormat::of_file(&path.to_string_lossy());
+        self.format.or_else(by_name).and_then(FileFormat::material).ok_or_else(|| {
+            let known = formats::extensions(formats::of_materials().map(|(format, _)| format));
+            Stop::Refused(format!(
+                "the name of the output does not tell the format ({known} do): give --format"
+            ))
+        })
+    }
+
+    fn request(&self, source: &Source) -> ExportRequest {
+        ExportRequest {
+            name: source.stem(),
+            lambda: self.lambda.clone(),
+            grid: self.grid.clone(),
+            uniform: self.uniform,
+            plugin: self.plugin,
+            rgb: self.rgb,
+            compat: self.compat,
+            estimate_error: true,
+            ..ExportRequest::default()
+        }
+    }
+}
+
+/// Names of formats on the command line, with their titles as help.
+fn format_parser() -> impl TypedValueParser<Value = &'static FileFormat> {
+    let names = formats::of_materials()
+        .map(|(format, _)| PossibleValue::new(format.name).help(format.title));
+    PossibleValuesParser::new(names)
+        .map(|name| FileFormat::named(&name).expect("the possible values are names of formats"))
+}
+
+/// Writes the table into a file that appears when it is whole; gives the line about it.
+fn save(
+    writer: MaterialWriter,
+    material: &Prepared,
+    request: &ExportRequest,
+    path: &Path,
+    control: &Control,
+) -> Result<String, Stop> {
+    let failed =
+        |error: io::Error| Stop::Failed(format!("cannot write {}: {error}", path.display()));
+    let mut file = AtomicFile::create(path).map_err(failed)?;
+    let line = writer.write(material, request, &mut file, control).map_err(not_exported)?;
+    file.finish().map_err(failed)?;
+    Ok(line)
 }
 
 fn compare(material: &Prepared, path: &Path, control: &Control) -> Result<String, Stop> {

@@ -10,8 +10,11 @@ use mist_engine::{
         table,
     },
 };
-use mist_runner::{files::DiskFiles, products::Product, table_query::TableQuery};
-use rise_bridge::write::Style;
+use mist_runner::{colours, files::DiskFiles, table_query::TableQuery};
+use rise_bridge::{
+    formats::{self, FileFormat},
+    write::Style,
+};
 
 use super::{
     material::{prepared, refused},
@@ -103,8 +106,10 @@ pub(super) struct TableArgs {
 
 /// Makes the table and writes it.
 pub(super) fn table(args: &TableArgs) -> Result<(), Stop> {
-    let product = Product::of_name(&args.output.to_string_lossy()).ok_or_else(|| {
-        Stop::Refused("the name of the output ends with .mtab, .mspd, .json or .svg".into())
+    let format = FileFormat::of_file(&args.output.to_string_lossy());
+    let writer = format.and_then(FileFormat::colours).ok_or_else(|| {
+        let known = formats::extensions(formats::of_colours().map(|(format, _)| format));
+        Stop::Refused(format!("the name of the output ends with one of {known}"))
     })?;
     if !(1..=17).contains(&args.digits) {
         return Err(Stop::Refused(format!("--digits is from 1 to 17, not {}", args.digits)));
@@ -114,8 +119,7 @@ pub(super) fn table(args: &TableArgs) -> Result<(), Stop> {
         None => args.computed()?,
     };
     let style = Style { digits: args.digits, xyz: args.xyz };
-    let written = product
-        .save(&table, &args.output, style)
+    let written = colours::save(writer, &table, &args.output, style)
         .map_err(|error| Stop::Failed(error.to_string()))?;
     for path in written {
         print(&format!("{}: {} rows\n", path.display(), table.rows.len()))?;

@@ -4,9 +4,9 @@
 //! run into shards and merges them, and writes colour tables in their formats. It knows no
 //! arguments, terminal or socket.
 
+pub mod colours;
 pub mod files;
 pub mod merge;
-pub mod products;
 pub mod registry;
 pub mod results;
 pub mod run;

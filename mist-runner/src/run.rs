@@ -6,12 +6,11 @@ use std::{
 };
 
 use mist_engine::{Control, Failure, Job, Options, OutputStream, RunSummary, Sink};
-use mist_format::program::ColourKey;
-use rise_bridge::write::Style;
+use rise_bridge::{formats, write::Style};
 
 use crate::{
+    colours::{self, SaveError},
     files::AtomicFile,
-    products::{Product, ProductError},
     shard::{JournalError, JournalWriter, Shard, ShardLabel},
 };
 
@@ -40,7 +39,7 @@ pub enum RunError {
     },
     /// A colour table cannot be written.
     #[error(transparent)]
-    Product(#[from] ProductError),
+    Colours(#[from] SaveError),
     /// The program cannot be split into shards.
     #[error(
         "this program cannot be split: its variables, loops or apertures read integrals or \
@@ -85,15 +84,10 @@ pub fn run_to_files(
     let summary = job.run(&mut sink, control)?;
     let mut files = sink.finish()?;
     if let (Some(section), Some(table)) = (job.colour(), &summary.colour) {
-        for (key, product) in [
-            (ColourKey::Table, Product::Table),
-            (ColourKey::Spectra, Product::Spectra),
-            (ColourKey::Json, Product::Json),
-            (ColourKey::Plot, Product::Picture),
-        ] {
-            if let Some(name) = section.file(key) {
-                let saved = product.save(table, &out.join(name), Style::default())?;
-                let title = product.title();
+        for (format, writer) in formats::of_colours() {
+            if let Some(name) = section.file(writer.key) {
+                let saved = colours::save(writer, table, &out.join(name), Style::default())?;
+                let title = format.title;
                 files.extend(saved.into_iter().map(|path| WrittenFile { title, path }));
             }
         }

@@ -99,7 +99,7 @@ pub fn openapi() -> String {
 /// The service, without a socket.
 pub fn router(app: App) -> Router {
     let (router, _) = routes().split_for_parts();
-    let router = export::routes(router).merge(page::routes());
+    let router = router.merge(page::routes());
     let document = axum::body::Bytes::from(openapi());
     let json = [(axum::http::header::CONTENT_TYPE, "application/json")];
     #[cfg(feature = "swagger")]

@@ -244,7 +244,7 @@ impl Office {
         job: &Job,
         state: State,
         tell: impl FnOnce(&mut Status),
-        texts: &[(&str, String)],
+        texts: &[(String, String)],
     ) {
         let mut status = job.status();
         status.finish(state);

@@ -150,13 +150,13 @@ impl Store {
         &self,
         id: &str,
         record: &str,
-        texts: &[(&str, String)],
+        texts: &[(String, String)],
     ) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(JOBS)?.insert(id, record)?;
             let mut table = change.open_table(TEXTS)?;
             for (kind, text) in texts {
-                table.insert((id, *kind), text.as_str())?;
+                table.insert((id, kind.as_str()), text.as_str())?;
             }
             remove_steps(change, id)
         })
@@ -342,7 +342,7 @@ mod tests {
         let store = Store::new(Some(folder.path())).unwrap();
         assert_eq!(store.step("a", 4).unwrap(), Some(vec![2]));
         assert_eq!(store.program("a").unwrap().as_deref(), Some("program"));
-        store.finish_job("a", "{}", &[("results", "text".into())]).unwrap();
+        store.finish_job("a", "{}", &[("results".into(), "text".into())]).unwrap();
         assert_eq!(store.step("a", 4).unwrap(), None);
         assert_eq!(store.text("a", "results").unwrap().as_deref(), Some("text"));
         store.remove_job("a").unwrap();

@@ -19,6 +19,7 @@
 
 mod column;
 pub mod export;
+pub mod formats;
 pub mod goniometer;
 pub mod klems;
 pub mod mitsuba;

@@ -1,23 +1,24 @@
 //! What the query of a URL asks for; angles in degrees, wavelengths in nm.
 
 use axum::{
-    extract::{FromRequestParts, Query},
+    extract::FromRequestParts,
     http::{Uri, request::Parts},
 };
 use mist_engine::material::{lobes::View, query::ColourNames, table::TableRequest};
 use mist_runner::table_query::TableQuery;
 use rise_bridge::write::Style;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use utoipa::IntoParams;
 
 use super::{
     error::{ApiError, Limit},
+    extract::Query,
     renderer,
 };
 use crate::limits::ServeLimits;
 
 /// The keys of a query; all have defaults but the directions.
-#[derive(Clone, Debug, Default, Deserialize, IntoParams)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize, IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub(super) struct Asked {
@@ -79,8 +80,7 @@ impl<S: Send + Sync> FromRequestParts<S> for Asked {
 impl Asked {
     /// What the query of an address says.
     pub(super) fn of(uri: &Uri) -> Result<Self, ApiError> {
-        let Query(asked) =
-            Query::<Self>::try_from_uri(uri).map_err(|error| ApiError::Query(error.body_text()))?;
+        let Query(asked) = Query::<Self>::of(uri)?;
         let refuse = |text: &str| Err(ApiError::Query(text.into()));
         if asked.digits.is_some_and(|digits| !(1..=17).contains(&digits)) {
             return refuse("digits is from 1 to 17");
@@ -118,9 +118,9 @@ impl Asked {
         self.wait
     }
 
-    /// All that the answer depends on, as text.
-    pub(super) fn key(&self) -> String {
-        format!("{:?}", Self { wait: None, out: None, ..self.clone() })
+    /// Everything that the table depends on.
+    pub(super) fn content(&self) -> impl Serialize + use<> {
+        Self { wait: None, out: None, ..self.clone() }
     }
 
     /// The table of the grid or of the patches in the query.

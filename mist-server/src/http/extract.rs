@@ -3,7 +3,7 @@
 use axum::{
     body::Bytes,
     extract::{FromRequest, FromRequestParts, Request},
-    http::{StatusCode, request::Parts},
+    http::{StatusCode, Uri, request::Parts},
 };
 use mist_runner::files::decode;
 use serde::de::DeserializeOwned;
@@ -31,8 +31,15 @@ pub(super) struct Query<T>(pub(super) T);
 impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
     type Rejection = ApiError;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ApiError> {
-        let found = axum::extract::Query::<T>::from_request_parts(parts, state).await;
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, ApiError> {
+        Self::of(&parts.uri)
+    }
+}
+
+impl<T: DeserializeOwned> Query<T> {
+    /// The query of the address `uri`.
+    pub(super) fn of(uri: &Uri) -> Result<Self, ApiError> {
+        let found = axum::extract::Query::<T>::try_from_uri(uri);
         found.map(|query| Self(query.0)).map_err(|error| ApiError::Query(error.body_text()))
     }
 }

@@ -8,6 +8,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use mist_engine::Control;
+use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use super::{
@@ -32,15 +33,18 @@ pub(super) struct Asker<'a> {
 }
 
 impl<'a> Asker<'a> {
-    /// Who asks for the file that is all that `content` says, of the content type `kind`, and
-    /// waits for `wait` seconds if the query says so.
+    /// A request for the file that depends on `content` alone, of the media type `kind`, by a
+    /// client that waits for `wait` seconds if the query says so.
     pub(super) fn new(
-        content: &str,
+        content: &impl Serialize,
         kind: &'static str,
         wait: Option<f64>,
         (headers, uri): (&'a HeaderMap, &'a Uri),
-    ) -> Self {
-        Self { tag: tag_of(content), kind, headers, uri, patience: patience(wait, headers) }
+    ) -> Result<Self, ApiError> {
+        let content = serde_json::to_string(content);
+        let content = content.map_err(|error| ApiError::Failed(error.to_string()))?;
+        let patience = patience(wait, headers);
+        Ok(Self { tag: tag_of(&content), kind, headers, uri, patience })
     }
 
     /// The answer to a client that has the file already.

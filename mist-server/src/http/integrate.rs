@@ -13,7 +13,6 @@ use mist_engine::{
         table::{self, TableRequest},
     },
 };
-use mist_runner::products::Product;
 use rise_bridge::write;
 use serde::Deserialize;
 use utoipa::ToSchema;
@@ -164,8 +163,7 @@ fn answer(
         }
         (Out::Rgb, json) => {
             let table = table::table(&kept.prepared, request, control)?;
-            let product = if json { Product::Json } else { Product::Table };
-            product.text(&table, asked.component(), style)
+            if json { write::json(&table, style.xyz) } else { write::mtab(&table, style) }
         }
     };
     text.map_err(|error| MaterialError::NotFinite(error.to_string()).into())

@@ -12,6 +12,7 @@ use axum::{
     },
 };
 use futures_util::{Stream, StreamExt, stream};
+use rise_bridge::formats::{self, FileFormat};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
@@ -251,22 +252,19 @@ pub(super) async fn table(
     Path(id): Path<String>,
     Query(how): Query<HowTable>,
 ) -> Result<Response, ApiError> {
-    let (kind, content) = match how.format.as_deref().unwrap_or("mtab") {
-        "mtab" => ("table.mtab", "text/plain; charset=utf-8"),
-        "mspd" => ("table.mspd", "text/plain; charset=utf-8"),
-        "json" => ("table.json", "application/json"),
-        "svg" => ("table.svg", "image/svg+xml"),
-        other => {
-            let message = format!("format: {other:?} is none of mtab, mspd, json, svg");
-            return Err(ApiError::Query(message));
-        }
-    };
+    let name = how.format.as_deref().unwrap_or(formats::MTAB.name);
+    let format = FileFormat::named(name).filter(|format| format.colours().is_some());
+    let format = format.ok_or_else(|| {
+        let known: Vec<&str> = formats::of_colours().map(|(format, _)| format.name).collect();
+        ApiError::Query(format!("format: {name:?} is none of {}", known.join(", ")))
+    })?;
+    let kind = format!("table.{}", format.extension);
     let text = text(&app, app.jobs.find(&id)?, kind).await?;
-    Ok(([(header::CONTENT_TYPE, content)], text).into_response())
+    Ok(([(header::CONTENT_TYPE, format.media_type)], text).into_response())
 }
 
 /// A text of a job that is done.
-async fn text(app: &App, job: Arc<Job>, kind: &'static str) -> Result<String, ApiError> {
+async fn text(app: &App, job: Arc<Job>, kind: impl Into<String>) -> Result<String, ApiError> {
     let status = job.status();
     match status.state {
         JobState::Done => {}
@@ -276,6 +274,8 @@ async fn text(app: &App, job: Arc<Job>, kind: &'static str) -> Result<String, Ap
         }
         other => return Err(ApiError::Conflict(format!("the job is {}", other.name()))),
     }
-    let found = app.blocking(move |app| Ok(app.jobs.text(&job, kind)?)).await?;
+    let kind = kind.into();
+    let wanted = kind.clone();
+    let found = app.blocking(move |app| Ok(app.jobs.text(&job, &wanted)?)).await?;
     found.ok_or_else(|| ApiError::NotFound(format!("{kind} of this job")))
 }

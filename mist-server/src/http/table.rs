@@ -10,7 +10,7 @@ use mist_engine::material::{
     MaterialError,
     table::{self, TableRequest},
 };
-use mist_runner::products::Product;
+use rise_bridge::formats::{self, ColourWriter, FORMATS, FileFormat, FormatWriter};
 use serde::Deserialize;
 use utoipa::IntoParams;
 
@@ -18,6 +18,7 @@ use super::{
     App,
     asked::{Asked, admit},
     error::ApiError,
+    export,
     extract::Path,
     file::Asker,
     problem::Problems,
@@ -62,34 +63,53 @@ pub(super) struct Named {
 pub(super) async fn table(
     State(app): State<App>,
     Path((name, file)): Path<(String, String)>,
-    asked: Asked,
     uri: Uri,
     headers: HeaderMap,
 ) -> Result<Response, ApiError> {
-    let product =
-        Product::of_name(&file).filter(|_| file.starts_with("table.")).ok_or_else(|| {
-            ApiError::NotFound(format!(
-                "{file}: ask for table.mtab, .mspd, .json, .svg, .pbsdf, .bsdf, .RISEdataBSDF, .xompt, .astm, .csv or .xml"
-            ))
-        })?;
-    let kept = app.materials.find(&name)?;
-    let content = format!("{name:?} {} {product:?} {}", kept.hash, asked.key());
-    let asker = Asker::new(&content, product.content_type(), asked.wait(), (&headers, &uri));
+    let format = format_of(&file)?;
+    match format.writer {
+        FormatWriter::Colours(writer) => {
+            colours(&app, &name, (format, writer), (&headers, &uri)).await
+        }
+        FormatWriter::Material(writer) => {
+            export::answer(&app, name, (format, writer), (&headers, &uri)).await
+        }
+    }
+}
+
+/// The format of the file `table.EXTENSION`.
+fn format_of(file: &str) -> Result<&'static FileFormat, ApiError> {
+    let is_table = file.strip_prefix("table.").is_some_and(|rest| !rest.contains('.'));
+    FileFormat::of_file(file).filter(|_| is_table).ok_or_else(|| {
+        let known = formats::extensions(FORMATS.into_iter());
+        ApiError::NotFound(format!("{file}: ask for table with one of {known}"))
+    })
+}
+
+async fn colours(
+    app: &App,
+    name: &str,
+    (format, writer): (&'static FileFormat, ColourWriter),
+    (headers, uri): (&HeaderMap, &Uri),
+) -> Result<Response, ApiError> {
+    let asked = Asked::of(uri)?;
+    let kept = app.materials.find(name)?;
+    let content = (name, &kept.hash, format.name, asked.content());
+    let asker = Asker::new(&content, format.media_type, asked.wait(), (headers, uri))?;
     if let Some(answer) = asker.known() {
         return Ok(answer);
     }
-    let mut request = asked.wanted()?.request(&name, None)?;
+    let mut request = asked.wanted()?.request(name, None)?;
     admit(&request, &app.limits)?;
     request.limits = app.limits.engine(app.limits.max_time);
     let bytes = memory_of(&request);
     let work = move |control: &mist_engine::Control| {
         let table = table::table(&kept.prepared, &request, control)?;
-        let text = product
-            .text(&table, asked.component(), asked.style())
+        let text = (writer.text)(&table, asked.component(), asked.style())
             .map_err(|error| MaterialError::NotFinite(error.to_string()))?;
         Ok(Bytes::from(text))
     };
-    asker.answer(&app, bytes, work).await
+    asker.answer(app, bytes, work).await
 }
 
 /// Bytes of a table and of its text while it is made, about: its numbers as f64 and with about

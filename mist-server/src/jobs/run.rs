@@ -7,8 +7,7 @@ use std::{
 
 use axum::http::StatusCode;
 use mist_engine::{Control, Failure, OutputStream, RunSummary, Sink, compile};
-use mist_runner::products::Product;
-use rise_bridge::write::Style;
+use rise_bridge::{formats, write::Style};
 
 use super::{Job, MeasuredSink, Office, State, ledger::Ledger};
 use crate::http::{ApiError, Problem, ProgramBody};
@@ -91,27 +90,24 @@ fn attempt(office: &Office, job: &Job, body: &ProgramBody) -> Result<(), Failure
         status.steps = Some(summary.steps);
         status.resumed_after = (recalled > 0).then_some(recalled);
         status.defects = summary.met.iter().map(ToString::to_string).collect();
-        status.texts = texts.iter().map(|(kind, _)| (*kind).to_owned()).collect();
+        status.texts = texts.iter().map(|(kind, _)| kind.clone()).collect();
     };
     office.finish(job, State::Done, tell, &texts);
     Ok(())
 }
 
 /// The texts of a finished run by their names.
-fn texts(job: &Job, summary: &RunSummary) -> Result<Vec<(&'static str, String)>, Failure> {
+fn texts(job: &Job, summary: &RunSummary) -> Result<Vec<(String, String)>, Failure> {
     let live = job.live.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    let mut texts = vec![("results", live.results), ("listing", live.listing)];
+    let mut texts =
+        vec![("results".to_owned(), live.results), ("listing".to_owned(), live.listing)];
     if !live.samples.is_empty() {
-        texts.push(("samples", live.samples));
+        texts.push(("samples".to_owned(), live.samples));
     }
     let Some(table) = &summary.colour else { return Ok(texts) };
-    for (kind, product) in [
-        ("table.mtab", Product::Table),
-        ("table.mspd", Product::Spectra),
-        ("table.json", Product::Json),
-        ("table.svg", Product::Picture),
-    ] {
-        let text = product.text(table, 0, Style::default());
+    for (format, writer) in formats::of_colours() {
+        let kind = format!("table.{}", format.extension);
+        let text = (writer.text)(table, 0, Style::default());
         let text = text.map_err(|error| Failure::Write(io::Error::other(error.to_string())))?;
         texts.push((kind, text));
     }
