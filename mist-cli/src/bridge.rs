@@ -15,12 +15,12 @@ use rise_bridge::rise::{
 };
 
 use super::{
+    error::CommandError,
+    flags::{IlluminantFlag, LambdaFlag, LampBasisName},
+    input::InputText,
     material::{not_exported, refused},
-    preview::Basis,
-    print,
-    source::Source,
-    stop::Stop,
-    watch::watched,
+    output::print,
+    threads::ThreadsFlag,
 };
 
 mod deferred;
@@ -31,12 +31,12 @@ mod render;
 /// Materials are scene_materials in comments `# mist: NAME = VALUE` inside their chunks; with --derive
 /// also lambertian_material, cooktorrance_material and ggx_material by RISE's own parameters. For
 /// each one a MIST program over the rings of its table is written and run, and its results become a
-/// .RISEdataBSDF file: docs/formats/rise.md.
+/// .RISEdataBSDF file: docs/formats/rise.md. Without --lambda the wavelengths are 380:10:780.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
   mist bridge ball.RISEscene --out ball
-  mist bridge ball.RISEscene --derive --bands --wavelengths 400:10:700 --out ball
+  mist bridge ball.RISEscene --derive --bands --lambda 400:10:700 --out ball
   RISE_BIN=/opt/rise/bin/rise mist bridge ball.RISEscene --out ball --render
   mist bridge ball.RISEscene --deferred --filter linear:90 --out ball --render")]
 #[command(group = clap::ArgGroup::new("renders").args(["bands", "deferred"]))]
@@ -49,9 +49,8 @@ pub(super) struct BridgeArgs {
     /// Nodes of each polar angle: 46 are 2 degrees apart.
     #[arg(long, value_name = "N", default_value_t = 46, conflicts_with = "deferred")]
     nodes: usize,
-    /// Wavelengths in nm.
-    #[arg(long, value_name = "NM", default_value = "380:10:780")]
-    wavelengths: String,
+    #[command(flatten)]
+    lambda: LambdaFlag,
     /// Derive models from RISE's own materials too.
     #[arg(long)]
     derive: bool,
@@ -80,7 +79,7 @@ pub(super) struct BridgeArgs {
     incident: String,
     /// Where that vector's Q > 0 is: perpendicular to the plane of incidence, or horizontal.
     #[arg(long, value_enum, default_value_t, value_name = "BASIS", requires = "deferred")]
-    incident_basis: Basis,
+    incident_basis: LampBasisName,
     /// Render the scenes with the program that RISE_BIN names.
     #[arg(long)]
     render: bool,
@@ -88,34 +87,35 @@ pub(super) struct BridgeArgs {
     /// --render does so by itself.
     #[arg(long, requires = "renders", conflicts_with = "render")]
     stack: bool,
-    /// The light of that picture: CIE name, colour temperature or D(temperature).
-    #[arg(long, default_value = "D65", value_name = "NAME")]
-    illuminant: String,
-    /// Threads [default: one per processor].
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    illuminant: IlluminantFlag,
+    #[command(flatten)]
+    threads: ThreadsFlag,
 }
 
+/// Wavelengths of tables for which none were asked.
+const LAMBDA: &str = "380:10:780";
+
 /// Makes the files, and the pictures if they are wanted.
-pub(super) fn bridge(args: &BridgeArgs) -> Result<(), Stop> {
-    let source = Source::read(&args.scene)?;
+pub(super) fn bridge(args: &BridgeArgs) -> Result<(), CommandError> {
+    let source = InputText::read(&args.scene)?;
     if args.deferred { deferred::deferred(args, &source) } else { tables(args, &source) }
 }
 
-fn tables(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
+fn tables(args: &BridgeArgs, source: &InputText) -> Result<(), CommandError> {
     if !(3..=361).contains(&args.nodes) {
-        return Err(Stop::Refused(format!("--nodes is from 3 to 361, not {}", args.nodes)));
+        return Err(CommandError::Refused(format!("--nodes is from 3 to 361, not {}", args.nodes)));
     }
     let renderer = args.render.then(render::Renderer::of_environment).transpose()?;
     let wanted = BridgeOptions {
         nodes: args.nodes,
-        wavelengths: query::nodes("wavelengths", &args.wavelengths).map_err(refused)?,
+        wavelengths: query::nodes("lambda", args.lambda.or(LAMBDA)).map_err(refused)?,
         derive: args.derive,
         bands: args.bands,
     };
     let (files, stem) = (DiskFiles::beside(&args.scene).shared(), source.stem());
     let make = |control: &_| product::make(&source.text, &stem, &files, &wanted, control);
-    let made = watched(args.threads, &stem, make)?.map_err(not_exported)?;
+    let made = args.threads.run(&stem, make)?.map_err(not_exported)?;
     save(&args.out, &made.files)?;
     print(&told(&args.out, &made))?;
     for scene in renderer.iter().flat_map(|_| &made.scenes) {
@@ -126,7 +126,13 @@ fn tables(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
     }
     if args.bands && (args.render || args.stack) {
         let stem = format!("{stem}_bands");
-        print(&stacked(&args.out, &stem, &made.bands, &wanted.wavelengths, &args.illuminant)?)?;
+        print(&stacked(
+            &args.out,
+            &stem,
+            &made.bands,
+            &wanted.wavelengths,
+            &args.illuminant.illuminant,
+        )?)?;
     }
     Ok(())
 }
@@ -138,28 +144,28 @@ fn stacked(
     renders: &[String],
     wavelengths: &[f64],
     illuminant: &str,
-) -> Result<String, Stop> {
+) -> Result<String, CommandError> {
     let images = renders.iter().map(|name| render::seen(&folder.join(name)));
-    let images = images.collect::<Result<Vec<_>, String>>().map_err(Stop::Failed)?;
+    let images = images.collect::<Result<Vec<_>, String>>().map_err(CommandError::Failed)?;
     let picture = stack::stack(&images, wavelengths, illuminant).map_err(not_exported)?;
     let paths = save_image(folder, stem, &picture)?.into_iter();
     Ok(paths.map(|path| format!("{}: of {} renders\n", path.display(), renders.len())).collect())
 }
 
 /// Writes `NAME.exr` (linear) and `NAME.png` (sRGB); says where they are.
-fn save_image(folder: &Path, name: &str, image: &Image) -> Result<[PathBuf; 2], Stop> {
+fn save_image(folder: &Path, name: &str, image: &Image) -> Result<[PathBuf; 2], CommandError> {
     let paths = ["exr", "png"].map(|extension| folder.join(format!("{name}.{extension}")));
     for (path, format) in paths.iter().zip([PictureFormat::Exr, PictureFormat::Png]) {
-        let failed = |error: String| Stop::Failed(format!("{}: {error}", path.display()));
+        let failed = |error: String| CommandError::Failed(format!("{}: {error}", path.display()));
         let bytes = image.write(format).map_err(|error| failed(error.to_string()))?;
         AtomicFile::write_bytes(path, &bytes).map_err(|error| failed(error.to_string()))?;
     }
     Ok(paths)
 }
 
-fn save(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<(), Stop> {
+fn save(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<(), CommandError> {
     let failed = |path: &Path, error: std::io::Error| {
-        Stop::Failed(format!("cannot write {}: {error}", path.display()))
+        CommandError::Failed(format!("cannot write {}: {error}", path.display()))
     };
     fs::create_dir_all(folder).map_err(|error| failed(folder, error))?;
     for (name, bytes) in files {

@@ -6,12 +6,12 @@ use mist_engine::{Options, compile};
 use mist_runner::files::DiskFiles;
 
 use super::{
-    print,
-    run::mode,
-    source::Source,
-    stop::{Fate, Stop},
+    error::{CommandError, ExitStatus},
+    flags::{CompatFlag, MessageFlag},
+    input::InputText,
+    output::print,
+    report::{self, MessageFormat},
 };
-use crate::report::{self, MessageFormat};
 
 /// Look for mistakes in programs without running them.
 #[derive(clap::Args)]
@@ -23,34 +23,38 @@ pub(super) struct CheckArgs {
     /// Programs.
     #[arg(required = true)]
     programs: Vec<PathBuf>,
-    /// Accept what NIST's program accepts.
-    #[arg(long)]
-    compat: bool,
-    /// Who reads the diagnostics.
-    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    message_format: MessageFormat,
+    #[command(flatten)]
+    compat: CompatFlag,
+    #[command(flatten)]
+    message: MessageFlag,
 }
 
 /// Checks the programs.
-pub(super) fn check(args: &CheckArgs) -> Result<(), Stop> {
-    let mut fate = Fate::Good;
+pub(super) fn check(args: &CheckArgs) -> Result<(), CommandError> {
+    let mut status = ExitStatus::Success;
     for path in &args.programs {
-        let source = Source::program(path)?;
+        let source = InputText::program(path)?;
         let files = DiskFiles::beside(path).shared();
-        let options = Options { mode: mode(args.compat), job: source.stem(), ..Options::default() };
+        let options =
+            Options { mode: args.compat.mode(), job: source.stem(), ..Options::default() };
         let found = match compile(&source.text, files, &options) {
             Ok(job) => job.advice(),
             Err(diagnostics) => diagnostics,
         };
-        report::tell(&found, &source.name(), &source.text, args.message_format);
+        report::print_diagnostics(
+            &found,
+            &source.name(),
+            &source.text,
+            args.message.message_format,
+        );
         let errors = found.iter().filter(|diagnostic| diagnostic.is_error()).count();
         if errors > 0 {
-            fate = Fate::Refused;
-        } else if args.message_format == MessageFormat::Human {
+            status = ExitStatus::Refused;
+        } else if args.message.message_format == MessageFormat::Human {
             print(&format!("{}: {}\n", source.name(), summary(found.len())))?;
         }
     }
-    fate.done()
+    status.into_result()
 }
 
 fn summary(warnings: usize) -> String {

@@ -1,6 +1,6 @@
 //! `mist color`: spectra in, XYZ, Lab and RGB out.
 
-use super::{print, source::read_input, stop::Stop};
+use super::{error::CommandError, input::read_input, output::print};
 
 /// Colours of spectra: one case, or {"illuminants": …, "cases": […]}, as JSON.
 ///
@@ -17,13 +17,13 @@ pub(super) struct ColorArgs {
 }
 
 /// Answers the cases.
-pub(super) fn color(args: &ColorArgs) -> Result<(), Stop> {
+pub(super) fn color(args: &ColorArgs) -> Result<(), CommandError> {
     let text = read_input(args.input.as_deref())?;
     let request = serde_json::from_str(&text)
-        .map_err(|error| Stop::Refused(format!("the input is not JSON: {error}")))?;
-    let response =
-        spectra::case::evaluate(&request).map_err(|error| Stop::Refused(error.to_string()))?;
+        .map_err(|error| CommandError::Refused(format!("the input is not JSON: {error}")))?;
+    let response = spectra::case::evaluate(&request)
+        .map_err(|error| CommandError::Refused(error.to_string()))?;
     let text = serde_json::to_string(&response)
-        .map_err(|error| Stop::Failed(format!("the answer has no JSON form: {error}")))?;
+        .map_err(|error| CommandError::Failed(format!("the answer has no JSON form: {error}")))?;
     print(&(text + "\n"))
 }

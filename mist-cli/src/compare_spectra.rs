@@ -11,7 +11,12 @@ use spectra::{
     compare::{SpectrumComparison, compare},
 };
 
-use super::{print, source::Source, stop::Stop};
+use super::{
+    error::CommandError,
+    flags::{IlluminantFlag, JsonFlag, ObserverFlag},
+    input::InputText,
+    output::print,
+};
 
 /// Compare a measured spectrum with a simulated one.
 ///
@@ -35,28 +40,26 @@ pub(super) struct CompareSpectraArgs {
     /// The values of text files are BRDF in 1/sr: for the colours they are multiplied by pi.
     #[arg(long)]
     brdf: bool,
-    /// Illuminant of the colours.
-    #[arg(long, default_value = "D65")]
-    illuminant: String,
-    /// Observer of the colours.
-    #[arg(long, default_value = "CIE1931_2")]
-    observer: String,
+    #[command(flatten)]
+    illuminant: IlluminantFlag,
+    #[command(flatten)]
+    observer: ObserverFlag,
     /// Write a picture of the spectra: .svg.
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonFlag,
 }
 
 /// Spectra of a file, on a scale on which a perfect diffuser is 1, and what each is called.
 struct Spectra(Vec<(String, Spectrum)>);
 
 impl Spectra {
-    fn read(path: &std::path::Path, args: &CompareSpectraArgs) -> Result<Self, Stop> {
-        let source = Source::read(path)?;
-        let refused =
-            |error: &dyn std::fmt::Display| Stop::Refused(format!("{}: {error}", source.name()));
+    fn read(path: &std::path::Path, args: &CompareSpectraArgs) -> Result<Self, CommandError> {
+        let source = InputText::read(path)?;
+        let refused = |error: &dyn std::fmt::Display| {
+            CommandError::Refused(format!("{}: {error}", source.name()))
+        };
         if !source.text.starts_with("# MIST-TABLE") {
             let (spectrum, _) = Spectrum::parse(&source.text).map_err(|error| refused(&error))?;
             let factor = if args.brdf { std::f64::consts::PI } else { 1.0 };
@@ -87,32 +90,34 @@ impl Spectra {
 }
 
 /// Compares and tells.
-pub(super) fn compare_spectra(args: &CompareSpectraArgs) -> Result<(), Stop> {
-    let refused = |error: &dyn std::fmt::Display| Stop::Refused(error.to_string());
-    let illuminant = Illuminant::parse(&args.illuminant).map_err(|error| refused(&error))?;
-    let observer = Observer::parse(&args.observer).map_err(|error| refused(&error))?;
+pub(super) fn compare_spectra(args: &CompareSpectraArgs) -> Result<(), CommandError> {
+    let refused = |error: &dyn std::fmt::Display| CommandError::Refused(error.to_string());
+    let illuminant =
+        Illuminant::parse(&args.illuminant.illuminant).map_err(|error| refused(&error))?;
+    let observer = Observer::parse(&args.observer.observer).map_err(|error| refused(&error))?;
     let Spectra(measured) = Spectra::read(&args.measured, args)?;
     let Spectra(simulated) = Spectra::read(&args.simulated, args)?;
     if measured.len() != simulated.len() {
         let (m, s) = (measured.len(), simulated.len());
-        return Err(Stop::Refused(format!(
+        return Err(CommandError::Refused(format!(
             "there are {m} measured and {s} simulated spectra; choose one with --row"
         )));
     }
     let mut found = Vec::new();
     for ((m_name, m), (s_name, s)) in measured.iter().zip(&simulated) {
         let comparison = compare(m, s, &illuminant, observer)
-            .map_err(|error| Stop::Refused(format!("{m_name}, {s_name}: {error}")))?;
+            .map_err(|error| CommandError::Refused(format!("{m_name}, {s_name}: {error}")))?;
         found.push(([m_name.as_str(), s_name.as_str()], comparison));
     }
     if let Some(path) = &args.plot {
         let pictures: Vec<([&str; 2], &SpectrumComparison)> =
             found.iter().map(|(names, comparison)| (*names, comparison)).collect();
-        AtomicFile::write(path, &write::plot_comparisons(&pictures))
-            .map_err(|error| Stop::Failed(format!("cannot write {}: {error}", path.display())))?;
+        AtomicFile::write(path, &write::plot_comparisons(&pictures)).map_err(|error| {
+            CommandError::Failed(format!("cannot write {}: {error}", path.display()))
+        })?;
     }
     let under = format!("{}, {}", illuminant.name(), observer.name());
-    print(&if args.json { to_json(&found, &under) } else { describe(&found, &under) })
+    print(&if args.json.json { to_json(&found, &under) } else { describe(&found, &under) })
 }
 
 fn to_json(found: &[([&str; 2], SpectrumComparison)], under: &str) -> String {

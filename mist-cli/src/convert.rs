@@ -6,10 +6,10 @@ use mist_format::convert::ConvertError;
 use mist_runner::files::AtomicFile;
 
 use super::{
-    print,
-    stop::{Fate, Stop},
+    error::{CommandError, ExitStatus},
+    output::print,
+    report::{self, MessageFormat},
 };
-use crate::report::{self, MessageFormat};
 
 /// Turn a document of NIST's Windows program, or an old program, into a program of today.
 #[derive(clap::Args)]
@@ -26,32 +26,38 @@ pub(super) struct ConvertArgs {
 }
 
 /// Converts the file.
-pub(super) fn convert(args: &ConvertArgs) -> Result<(), Stop> {
+pub(super) fn convert(args: &ConvertArgs) -> Result<(), CommandError> {
     let name = args.file.display();
     let bytes = std::fs::read(&args.file)
-        .map_err(|error| Stop::Refused(format!("cannot read {name}: {error}")))?;
+        .map_err(|error| CommandError::Refused(format!("cannot read {name}: {error}")))?;
     let text =
         mist_format::convert::convert(&bytes).map_err(|error| refused(error, args, &bytes))?;
     match &args.output {
         None => print(&text),
-        Some(path) => AtomicFile::write(path, &text)
-            .map_err(|error| Stop::Failed(format!("cannot write {}: {error}", path.display()))),
+        Some(path) => AtomicFile::write(path, &text).map_err(|error| {
+            CommandError::Failed(format!("cannot write {}: {error}", path.display()))
+        }),
     }
 }
 
 /// Says why the file cannot be converted, with the places where it is a program.
-fn refused(error: ConvertError, args: &ConvertArgs, bytes: &[u8]) -> Stop {
+fn refused(error: ConvertError, args: &ConvertArgs, bytes: &[u8]) -> CommandError {
     let name = args.file.display().to_string();
     match &error {
         ConvertError::Program(found) => {
             let text = mist_format::decode(bytes);
-            report::tell(found, &name, &text, MessageFormat::Human);
-            Stop::Said(Fate::Refused)
+            report::print_diagnostics(found, &name, &text, MessageFormat::Human);
+            CommandError::Reported(ExitStatus::Refused)
         }
         ConvertError::Incomplete { text, found } => {
-            report::tell(found, &format!("{name}, converted"), text, MessageFormat::Human);
-            Stop::Said(Fate::Refused)
+            report::print_diagnostics(
+                found,
+                &format!("{name}, converted"),
+                text,
+                MessageFormat::Human,
+            );
+            CommandError::Reported(ExitStatus::Refused)
         }
-        ConvertError::Document(_) => Stop::Refused(format!("{name}: {error}")),
+        ConvertError::Document(_) => CommandError::Refused(format!("{name}: {error}")),
     }
 }

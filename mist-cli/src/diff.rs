@@ -13,7 +13,7 @@ use pictures::{
     visible::Viewing,
 };
 
-use super::{print, run::pool, stop::Stop};
+use super::{error::CommandError, flags::JsonFlag, output::print, threads::pool};
 
 /// Compare two pictures: which part of the difference an observer sees.
 ///
@@ -35,9 +35,8 @@ pub(super) struct DiffArgs {
     /// Repeat the two habits of HDR-VDP 1.7 that make its numbers.
     #[arg(long)]
     compat: bool,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonFlag,
     /// Width and height of the display in metres.
     #[arg(long, value_name = "WxH", default_value = "0.375x0.300", value_parser = pair)]
     display_size: [f64; 2],
@@ -74,8 +73,8 @@ fn pair(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// Compares the pictures.
-pub(super) fn diff(args: &DiffArgs) -> Result<(), Stop> {
-    let refused = |error: &dyn std::fmt::Display| Stop::Refused(error.to_string());
+pub(super) fn diff(args: &DiffArgs) -> Result<(), CommandError> {
+    let refused = |error: &dyn std::fmt::Display| CommandError::Refused(error.to_string());
     let viewing = Viewing::new(args.display_size, args.display_pixels, args.distance)
         .map_err(|error| refused(&error))?;
     let formats = [format_of(args.map.as_deref())?, format_of(args.overlay.as_deref())?];
@@ -88,7 +87,7 @@ pub(super) fn diff(args: &DiffArgs) -> Result<(), Stop> {
         daly: args.daly,
     };
     let compare = || difference::compare(&test, &reference, &settings);
-    let found = pool(None)?.install(compare).map_err(|error| refused(&error))?;
+    let found = pool(0)?.install(compare).map_err(|error| refused(&error))?;
     if let (Some(path), Some(format)) = (&args.map, formats[0]) {
         // Probabilities are written as they are, in PNG too.
         let encoding = if format == PictureFormat::Png { Encoding::Srgb } else { Encoding::Linear };
@@ -97,31 +96,33 @@ pub(super) fn diff(args: &DiffArgs) -> Result<(), Stop> {
     if let (Some(path), Some(format)) = (&args.overlay, formats[1]) {
         write(path, &found.overlay(), format)?;
     }
-    print(&if args.json { format!("{}\n", found.json()) } else { describe(&found) })
+    print(&if args.json.json { format!("{}\n", found.json()) } else { describe(&found) })
 }
 
 /// The format that a picture called `path` is written in.
-fn format_of(path: Option<&Path>) -> Result<Option<PictureFormat>, Stop> {
+fn format_of(path: Option<&Path>) -> Result<Option<PictureFormat>, CommandError> {
     let Some(path) = path else { return Ok(None) };
     match PictureFormat::of_name(&path.to_string_lossy()) {
         Some(format) if format != PictureFormat::Hdr => Ok(Some(format)),
         _ => {
             let name = path.display();
-            Err(Stop::Refused(format!("{name}: pictures are written as .png, .exr or .pfm")))
+            Err(CommandError::Refused(format!(
+                "{name}: pictures are written as .png, .exr or .pfm"
+            )))
         }
     }
 }
 
-fn read(path: &Path) -> Result<Image, Stop> {
+fn read(path: &Path) -> Result<Image, CommandError> {
     let name = path.display();
-    let bytes =
-        fs::read(path).map_err(|error| Stop::Refused(format!("cannot read {name}: {error}")))?;
-    Image::read(&bytes).map_err(|error| Stop::Refused(format!("{name}: {error}")))
+    let bytes = fs::read(path)
+        .map_err(|error| CommandError::Refused(format!("cannot read {name}: {error}")))?;
+    Image::read(&bytes).map_err(|error| CommandError::Refused(format!("{name}: {error}")))
 }
 
-fn write(path: &Path, image: &Image, format: PictureFormat) -> Result<(), Stop> {
+fn write(path: &Path, image: &Image, format: PictureFormat) -> Result<(), CommandError> {
     let failed = |error: &dyn std::fmt::Display| {
-        Stop::Failed(format!("cannot write {}: {error}", path.display()))
+        CommandError::Failed(format!("cannot write {}: {error}", path.display()))
     };
     let bytes = image.write(format).map_err(|error| failed(&error))?;
     AtomicFile::write_bytes(path, &bytes).map_err(|error| failed(&error))

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use mist_engine::material::eval;
 use mist_runner::files::DiskFiles;
 
-use super::{print, run::mode, source::read_input, stop::Stop};
-use crate::report;
+use super::{error::CommandError, flags::CompatFlag, input::read_input, output::print, report};
 
 /// Mueller matrices of a model in given directions, as JSON.
 ///
@@ -21,19 +20,19 @@ Examples:
 pub(super) struct EvalArgs {
     /// File with the request [default: standard input].
     input: Option<PathBuf>,
-    /// Give NIST's numbers, its defects included.
-    #[arg(long)]
-    compat: bool,
+    #[command(flatten)]
+    compat: CompatFlag,
 }
 
 /// Answers the request.
-pub(super) fn eval(args: &EvalArgs) -> Result<(), Stop> {
+pub(super) fn eval(args: &EvalArgs) -> Result<(), CommandError> {
     let text = read_input(args.input.as_deref())?;
     let beside = args.input.as_deref().unwrap_or(Path::new(""));
     let files = DiskFiles::beside(beside).shared();
-    let response = eval::eval(&text, mode(args.compat), Some(files))
-        .map_err(|error| Stop::Refused(report::with_help(&error.to_string(), error.help())))?;
+    let response = eval::eval(&text, args.compat.mode(), Some(files)).map_err(|error| {
+        CommandError::Refused(report::with_help(&error.to_string(), error.help()))
+    })?;
     let text = serde_json::to_string(&response)
-        .map_err(|error| Stop::Failed(format!("the answer has no JSON form: {error}")))?;
+        .map_err(|error| CommandError::Failed(format!("the answer has no JSON form: {error}")))?;
     print(&(text + "\n"))
 }

@@ -15,18 +15,20 @@ use rise_bridge::{
 };
 
 use super::{
+    error::CommandError,
+    flags::{CompatFlag, LambdaFlag},
+    input::InputText,
     material::{not_exported, prepared},
-    print,
-    source::Source,
-    stop::Stop,
-    watch::watched,
+    output::print,
+    threads::ThreadsFlag,
 };
 
 /// Write a material in the format of a renderer, or compare a table of one with it.
 ///
 /// A MATERIAL.json is {"model": …, "parameters": {…}, "files": {…}}; of a program the model of
-/// its first step counts. Its wavelength is set to each of --wavelengths. The file appears when it
-/// is whole. docs/formats has a page per format: what is stored, frames, signs, units.
+/// its first step counts. Its wavelength is set to each of --lambda: without it 450,500,550,600,650
+/// for pbsdf, 360:10:830 for colours, 380:10:780 for rise, else 400:10:700. The file appears when
+/// it is whole. docs/formats has a page per format: what is stored, frames, signs, units.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -44,10 +46,8 @@ pub(super) struct ExportArgs {
     /// Format of the file [default: the format that the name of the output says].
     #[arg(long, value_parser = format_parser())]
     format: Option<&'static FileFormat>,
-    /// Wavelengths in nm: a list, FIRST:STEP:LAST, or both mixed [default: 450,500,550,600,650 for
-    /// pbsdf, 360:10:830 for colours, else 400:10:700].
-    #[arg(long, alias = "wavelengths", value_name = "NM")]
-    lambda: Option<String>,
+    #[command(flatten)]
+    lambda: LambdaFlag,
     /// Nodes of the table, or auto:PERCENT, the smallest grid on which 95 % of the light is nearer
     /// than that. pbsdf: phi_d x theta_d x theta_h (37x46x91). bsdf: theta_i x side of an image
     /// (24x64), or phi_i x theta_i x side (37x20x48). GoniometerTable tables: degrees
@@ -69,62 +69,60 @@ pub(super) struct ExportArgs {
     /// Compare this .pbsdf, measured or computed, with the material; nothing is written.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "format", "grid"])]
     compare: Option<PathBuf>,
-    /// Give NIST's numbers, its defects included.
-    #[arg(long)]
-    compat: bool,
-    /// Threads [default: one per processor].
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    compat: CompatFlag,
+    #[command(flatten)]
+    threads: ThreadsFlag,
     /// The file to write.
     #[arg(short, long, value_name = "FILE", required_unless_present = "compare")]
     output: Option<PathBuf>,
 }
 
 /// Writes the file, or compares it.
-pub(super) fn export(args: &ExportArgs) -> Result<(), Stop> {
-    let source = Source::read(&args.material)?;
-    let material = prepared(&args.material, &source, args.compat)?;
+pub(super) fn export(args: &ExportArgs) -> Result<(), CommandError> {
+    let source = InputText::read(&args.material)?;
+    let material = prepared(&args.material, &source, args.compat.mode())?;
     let label = source.stem();
-    print(&watched(args.threads, &label, |control| done(args, &source, &material, control))??)
+    print(&args.threads.run(&label, |control| done(args, &source, &material, control))??)
 }
 
 fn done(
     args: &ExportArgs,
-    source: &Source,
+    source: &InputText,
     material: &Prepared,
     control: &Control,
-) -> Result<String, Stop> {
+) -> Result<String, CommandError> {
     match (&args.compare, &args.output) {
         (Some(table), _) => compare(material, table, control),
         (None, Some(path)) => {
             let line = save(args.writer(path)?, material, &args.request(source), path, control)?;
             Ok(format!("{}: {line}\n", path.display()))
         }
-        (None, None) => Err(Stop::Refused("--output or --compare is needed".into())),
+        (None, None) => Err(CommandError::Refused("--output or --compare is needed".into())),
     }
 }
 
 impl ExportArgs {
     /// The writer of the format that the flag or the name of the output says.
-    fn writer(&self, path: &Path) -> Result<MaterialWriter, Stop> {
+    fn writer(&self, path: &Path) -> Result<MaterialWriter, CommandError> {
         let by_name = || FileFormat::of_file(&path.to_string_lossy());
         self.format.or_else(by_name).and_then(FileFormat::material).ok_or_else(|| {
             let known = formats::extensions(formats::of_materials().map(|(format, _)| format));
-            Stop::Refused(format!(
+            CommandError::Refused(format!(
                 "the name of the output does not tell the format ({known} do): give --format"
             ))
         })
     }
 
-    fn request(&self, source: &Source) -> ExportRequest {
+    fn request(&self, source: &InputText) -> ExportRequest {
         ExportRequest {
             name: source.stem(),
-            lambda: self.lambda.clone(),
+            lambda: self.lambda.lambda.clone(),
             grid: self.grid.clone(),
             uniform: self.uniform,
             plugin: self.plugin,
             rgb: self.rgb,
-            compat: self.compat,
+            compat: self.compat.compat,
             estimate_error: true,
             ..ExportRequest::default()
         }
@@ -146,18 +144,20 @@ fn save(
     request: &ExportRequest,
     path: &Path,
     control: &Control,
-) -> Result<String, Stop> {
-    let failed =
-        |error: io::Error| Stop::Failed(format!("cannot write {}: {error}", path.display()));
+) -> Result<String, CommandError> {
+    let failed = |error: io::Error| {
+        CommandError::Failed(format!("cannot write {}: {error}", path.display()))
+    };
     let mut file = AtomicFile::create(path).map_err(failed)?;
     let line = writer.write(material, request, &mut file, control).map_err(not_exported)?;
     file.finish().map_err(failed)?;
     Ok(line)
 }
 
-fn compare(material: &Prepared, path: &Path, control: &Control) -> Result<String, Stop> {
+fn compare(material: &Prepared, path: &Path, control: &Control) -> Result<String, CommandError> {
     let name = path.display();
-    let file = File::open(path).map_err(|e| Stop::Refused(format!("cannot read {name}: {e}")))?;
+    let file =
+        File::open(path).map_err(|e| CommandError::Refused(format!("cannot read {name}: {e}")))?;
     let file = io::BufReader::new(file);
     let found = pbsdf::compare(file, material, control).map_err(not_exported)?;
     let mut text = format!(

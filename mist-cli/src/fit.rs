@@ -9,9 +9,9 @@ use mist_engine::{
 use mist_format::number::general;
 
 use super::{
-    print,
-    source::Source,
-    stop::{Fate, Stop},
+    error::{CommandError, ExitStatus},
+    input::InputText,
+    output::print,
     vary::{self, Vary},
 };
 
@@ -71,12 +71,12 @@ fn bounds(text: &str) -> Result<(String, [f64; 2]), String> {
 }
 
 /// Fits and tells.
-pub(super) fn fit(args: &FitArgs) -> Result<(), Stop> {
-    let source = Source::read(&args.vary.program)?;
+pub(super) fn fit(args: &FitArgs) -> Result<(), CommandError> {
+    let source = InputText::read(&args.vary.program)?;
     let program = args.vary.open(&source)?;
-    let table = Source::read(&args.measured)?;
+    let table = InputText::read(&args.measured)?;
     let measured = MeasuredTable::parse(&table.text, program.titles(), program.headers())
-        .map_err(|error| Stop::Refused(format!("{}: {error}", table.name())))?;
+        .map_err(|error| CommandError::Refused(format!("{}: {error}", table.name())))?;
     let settings = FitSettings {
         start: args.start.iter().cloned().collect::<BTreeMap<_, _>>(),
         bounds: args.bounds.iter().cloned().collect(),
@@ -87,23 +87,25 @@ pub(super) fn fit(args: &FitArgs) -> Result<(), Stop> {
     };
     let run = |control: &Control| fit::fit(&program, &measured, &settings, control);
     match args.vary.watch("fit", run)? {
-        Ok(found) if args.vary.json => print(&vary::json(&found)?),
+        Ok(found) if args.vary.json.json => print(&vary::json(&found)?),
         Ok(found) => print(&describe(&found)),
         Err(error) => Err(stop(&error, &source, args)),
     }
 }
 
-fn stop(error: &FitError, source: &Source, args: &FitArgs) -> Stop {
+fn stop(error: &FitError, source: &InputText, args: &FitArgs) -> CommandError {
     if let Some(diagnostics) = error.diagnostics() {
         vary::tell(diagnostics, source);
-        return Stop::Said(Fate::Refused);
+        return CommandError::Reported(ExitStatus::Refused);
     }
     match error {
         FitError::MeasuredTable(error) => {
-            Stop::Refused(format!("{}: {error}", args.measured.display()))
+            CommandError::Refused(format!("{}: {error}", args.measured.display()))
         }
-        FitError::Setting { .. } | FitError::TooFewData { .. } => Stop::Refused(error.to_string()),
-        other => Stop::Failed(other.to_string()),
+        FitError::Setting { .. } | FitError::TooFewData { .. } => {
+            CommandError::Refused(error.to_string())
+        }
+        other => CommandError::Failed(other.to_string()),
     }
 }
 

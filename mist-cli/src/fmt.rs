@@ -7,12 +7,12 @@ use mist_runner::files::AtomicFile;
 use scattering::Mode;
 
 use super::{
-    print,
-    run::mode,
-    source::Source,
-    stop::{Fate, Stop},
+    error::{CommandError, ExitStatus},
+    flags::CompatFlag,
+    input::InputText,
+    output::print,
+    report::{self, MessageFormat},
 };
-use crate::report::{self, MessageFormat};
 
 /// Print programs in one layout; comments stay, and no result changes.
 #[derive(clap::Args)]
@@ -31,44 +31,49 @@ pub(super) struct FmtArgs {
     /// Only name the files that would change.
     #[arg(long)]
     check: bool,
-    /// Accept what NIST's program accepts.
-    #[arg(long)]
-    compat: bool,
+    #[command(flatten)]
+    compat: CompatFlag,
 }
 
 /// Formats the programs.
-pub(super) fn fmt(args: &FmtArgs) -> Result<(), Stop> {
-    let mut fate = Fate::Good;
+pub(super) fn fmt(args: &FmtArgs) -> Result<(), CommandError> {
+    let mut status = ExitStatus::Success;
     for path in &args.programs {
-        fate = fate.max(format_one(args, &Source::program(path)?)?);
+        status = status.max(format_one(args, &InputText::program(path)?)?);
     }
-    fate.done()
+    status.into_result()
 }
 
-fn format_one(args: &FmtArgs, source: &Source) -> Result<Fate, Stop> {
-    let dialect = match mode(args.compat) {
+fn format_one(args: &FmtArgs, source: &InputText) -> Result<ExitStatus, CommandError> {
+    let dialect = match args.compat.mode() {
         Mode::Sound => mist_format::Dialect::Sound,
         Mode::Compat => mist_format::Dialect::Compat,
     };
     let text = match parse(&source.text, dialect) {
         Ok(program) => program.to_string(),
         Err(diagnostics) => {
-            report::tell(&diagnostics, &source.name(), &source.text, MessageFormat::Human);
-            return Ok(Fate::Refused);
+            report::print_diagnostics(
+                &diagnostics,
+                &source.name(),
+                &source.text,
+                MessageFormat::Human,
+            );
+            return Ok(ExitStatus::Refused);
         }
     };
     if args.check {
         if text == source.text {
-            return Ok(Fate::Good);
+            return Ok(ExitStatus::Success);
         }
         print(&format!("{}\n", source.name()))?;
-        return Ok(Fate::Failed);
+        return Ok(ExitStatus::Failed);
     }
     if !args.write {
         print(&text)?;
     } else if text != source.text {
-        AtomicFile::write(&source.path, &text)
-            .map_err(|error| Stop::Failed(format!("cannot write {}: {error}", source.name())))?;
+        AtomicFile::write(&source.path, &text).map_err(|error| {
+            CommandError::Failed(format!("cannot write {}: {error}", source.name()))
+        })?;
     }
-    Ok(Fate::Good)
+    Ok(ExitStatus::Success)
 }

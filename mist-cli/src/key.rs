@@ -3,8 +3,7 @@
 use clap::ValueEnum;
 use mist_server::keys;
 
-use super::{print, source::read_input, stop::Stop};
-use crate::report;
+use super::{error::CommandError, input::read_input, output::print, report};
 
 /// Make a key for `mist serve --keys`, or the line for one that you have.
 ///
@@ -35,20 +34,20 @@ enum Scopes {
 }
 
 /// Prints the line.
-pub(super) fn key(args: &KeyArgs) -> Result<(), Stop> {
+pub(super) fn key(args: &KeyArgs) -> Result<(), CommandError> {
     if args.name.is_empty() || args.name.contains(|c: char| c.is_whitespace() || c == '#') {
-        return Err(Stop::Refused("the name has no blanks and no #".into()));
+        return Err(CommandError::Refused("the name has no blanks and no #".into()));
     }
     let key = if args.hash {
         let key = read_input(None)?.trim().to_owned();
         if key.len() < 32 {
             let message = "the key has less than 32 characters: let `mist key` make one";
-            return Err(Stop::Refused(message.into()));
+            return Err(CommandError::Refused(message.into()));
         }
         key
     } else {
-        let made = keys::random().map_err(|error| Stop::Failed(error.to_string()))?;
-        report::say(&made);
+        let made = keys::random().map_err(|error| CommandError::Failed(error.to_string()))?;
+        report::print_line(&made);
         made
     };
     let scopes: Vec<&str> = args

@@ -8,32 +8,32 @@ mod color;
 mod compare_spectra;
 mod convert;
 mod diff;
+mod error;
 mod eval;
 mod export;
 mod fit;
+mod flags;
 mod fmt;
+mod input;
 mod interrupt;
 mod key;
 mod material;
 mod merge;
 mod models;
+mod output;
 mod preview;
 mod progress;
 mod report;
 mod run;
 mod serve;
-mod source;
-mod stop;
 mod table;
+mod threads;
 mod tolerance;
 mod vary;
-mod watch;
 
-use std::{io::Write, process::ExitCode};
+use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-
-use stop::Stop;
 
 /// From the physics of a material to its colour in a renderer.
 #[derive(Parser)]
@@ -101,16 +101,6 @@ fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(stop) => stop.exit(),
-    }
-}
-
-/// Writes `text` to standard output.
-fn print(text: &str) -> Result<(), Stop> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        // Whoever reads has read enough.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        other => other.map_err(|error| Stop::Failed(format!("cannot write the output: {error}"))),
+        Err(error) => error.exit(),
     }
 }

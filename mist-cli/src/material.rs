@@ -8,49 +8,55 @@ use mist_engine::{
 };
 use mist_runner::files::DiskFiles;
 use rise_bridge::export::ExportError;
+use scattering::Mode;
 
 use super::{
-    run::mode,
-    source::Source,
-    stop::{Fate, Stop},
+    error::{CommandError, ExitStatus},
+    input::InputText,
+    report::{self, MessageFormat},
 };
-use crate::report::{self, MessageFormat};
 
 /// The material in `source`, which was read from `path`.
-pub(super) fn prepared(path: &Path, source: &Source, compat: bool) -> Result<Prepared, Stop> {
+pub(super) fn prepared(
+    path: &Path,
+    source: &InputText,
+    mode: Mode,
+) -> Result<Prepared, CommandError> {
     let files = DiskFiles::beside(path).shared();
     if source.text.trim_start().starts_with('{') {
         let material = Material::from_json(&source.text).map_err(refused)?;
-        return material.prepare(mode(compat), Some(files)).map_err(refused);
+        return material.prepare(mode, Some(files)).map_err(refused);
     }
-    let options = Options { mode: mode(compat), job: source.stem(), ..Options::default() };
+    let options = Options { mode, job: source.stem(), ..Options::default() };
     let told = |diagnostics: &[_]| {
-        report::tell(diagnostics, &source.name(), &source.text, MessageFormat::Human);
-        Stop::Said(Fate::Refused)
+        report::print_diagnostics(diagnostics, &source.name(), &source.text, MessageFormat::Human);
+        CommandError::Reported(ExitStatus::Refused)
     };
     let job = compile(&source.text, files, &options).map_err(|found| told(&found))?;
     Prepared::of_step(&job).map_err(|failure| match failure {
         Failure::Program(found) => told(&found),
-        other => Stop::Failed(other.to_string()),
+        other => CommandError::Failed(other.to_string()),
     })
 }
 
 /// Why a material cannot be had.
-pub(super) fn refused(error: MaterialError) -> Stop {
+pub(super) fn refused(error: MaterialError) -> CommandError {
     let message = report::with_help(&error.to_string(), error.help());
     match error {
         MaterialError::Limit(_) | MaterialError::Cancelled | MaterialError::NotFinite(_) => {
-            Stop::Failed(message)
+            CommandError::Failed(message)
         }
-        _ => Stop::Refused(message),
+        _ => CommandError::Refused(message),
     }
 }
 
 /// Why a material cannot be exported.
-pub(super) fn not_exported(error: ExportError) -> Stop {
+pub(super) fn not_exported(error: ExportError) -> CommandError {
     match error {
         ExportError::Material(error) => refused(error),
-        ExportError::Refused { .. } | ExportError::Tensor(_) => Stop::Refused(error.to_string()),
-        ExportError::Io(_) | ExportError::Cancelled => Stop::Failed(error.to_string()),
+        ExportError::Refused { .. } | ExportError::Tensor(_) => {
+            CommandError::Refused(error.to_string())
+        }
+        ExportError::Io(_) | ExportError::Cancelled => CommandError::Failed(error.to_string()),
     }
 }

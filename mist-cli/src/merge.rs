@@ -4,7 +4,7 @@ use std::{fmt::Write as _, path::PathBuf};
 
 use mist_runner::merge;
 
-use super::{Stop, print};
+use super::{error::CommandError, output::print};
 
 /// Put the shards of a run together: the table is that of one run, byte by byte.
 ///
@@ -25,10 +25,14 @@ pub(super) struct MergeArgs {
 }
 
 /// Writes table, listing and samples.
-pub(super) fn merge(args: &MergeArgs) -> Result<(), Stop> {
+pub(super) fn merge(args: &MergeArgs) -> Result<(), CommandError> {
     let merged = merge::merge(&args.shards, args.output.as_deref()).map_err(|error| {
         let message = error.to_string();
-        if error.is_refusal() { Stop::Refused(message) } else { Stop::Failed(message) }
+        if error.is_refusal() {
+            CommandError::Refused(message)
+        } else {
+            CommandError::Failed(message)
+        }
     })?;
     let mut said = format!("{}: {} steps\n", merged.job, merged.steps);
     for file in &merged.files {

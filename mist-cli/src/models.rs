@@ -2,7 +2,7 @@
 
 use scattering::{Class, Family, spec};
 
-use super::{print, stop::Stop};
+use super::{error::CommandError, flags::JsonFlag, output::print};
 
 mod json;
 mod markdown;
@@ -18,33 +18,32 @@ Examples:
 pub(super) struct ModelsArgs {
     /// A model, or a class that models are made of.
     name: Option<String>,
-    /// As JSON.
-    #[arg(long, conflicts_with = "markdown")]
-    json: bool,
+    #[command(flatten)]
+    json: JsonFlag,
     /// The manual page docs/models.md.
-    #[arg(long, conflicts_with = "name")]
+    #[arg(long, conflicts_with_all = ["name", "json"])]
     markdown: bool,
 }
 
 /// Prints the list or the description.
-pub(super) fn models(args: &ModelsArgs) -> Result<(), Stop> {
+pub(super) fn models(args: &ModelsArgs) -> Result<(), CommandError> {
     let Some(name) = &args.name else {
-        return print(&match (args.json, args.markdown) {
+        return print(&match (args.json.json, args.markdown) {
             (true, _) => json::list(),
             (_, true) => markdown::manual(),
             _ => text::list(),
         });
     };
     let class = find(name)?;
-    print(&if args.json { json::class(class) } else { text::class(class) })
+    print(&if args.json.json { json::class(class) } else { text::class(class) })
 }
 
-fn find(name: &str) -> Result<&'static Class, Stop> {
+fn find(name: &str) -> Result<&'static Class, CommandError> {
     spec::find_class(name).ok_or_else(|| {
         let all = Family::ALL.iter().flat_map(|family| family.classes()).map(|class| class.name);
         let hint = mist_format::suggestion::did_you_mean(name, all);
         let hint = hint.unwrap_or_else(|| "`mist models` lists all".into());
-        Stop::Refused(format!("there is no model called {name:?}: {hint}"))
+        CommandError::Refused(format!("there is no model called {name:?}: {hint}"))
     })
 }
 

@@ -12,18 +12,19 @@ use preview::{
 use spectra::{ColourPlan, ColourSettings, Grid};
 
 use super::{
+    error::CommandError,
+    flags::{CompatFlag, IlluminantFlag, LambdaFlag, LampBasisName},
+    input::InputText,
     material::{prepared, refused},
-    print,
-    source::Source,
-    stop::Stop,
-    watch::watched,
+    output::print,
+    threads::ThreadsFlag,
 };
 
 /// Render a material on a body: its colours under lamps and sky, with a filter before the camera.
 ///
 /// The material is a MATERIAL.json or a program, of which the model of its first step counts. A
 /// white diffuser that faces a lamp has the value 1. The name of the output tells its form: .png
-/// (sRGB, 8 bits), .exr or .pfm (linear).
+/// (sRGB, 8 bits), .exr or .pfm (linear). Without --lambda the wavelengths are 400:10:700.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -64,7 +65,7 @@ pub(super) struct PreviewArgs {
     incident: String,
     /// Where that vector's Q > 0 is: perpendicular to the plane of incidence, or horizontal.
     #[arg(long, value_enum, default_value_t, value_name = "BASIS")]
-    incident_basis: Basis,
+    incident_basis: LampBasisName,
     /// none, linear:ANGLE (degrees from the horizontal, counter-clockwise), left or right.
     #[arg(long, default_value = "none")]
     filter: String,
@@ -90,65 +91,42 @@ pub(super) struct PreviewArgs {
     /// The spectra of the four Stokes components, in an .exr; radiance factors, no filter.
     #[arg(long, conflicts_with_all = ["filter", "side_by_side", "dolp", "exposure"])]
     spectral: bool,
-    /// Wavelengths in nm.
-    #[arg(long, default_value = "400:10:700", value_name = "FIRST:STEP:LAST")]
-    lambda: String,
-    /// CIE name, colour temperature, D(temperature), or a file.
-    #[arg(long, default_value = "D65")]
-    illuminant: String,
-    /// Give NIST's numbers, its defects included.
-    #[arg(long)]
-    compat: bool,
-    /// Threads [default: one per processor].
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    lambda: LambdaFlag,
+    #[command(flatten)]
+    illuminant: IlluminantFlag,
+    #[command(flatten)]
+    compat: CompatFlag,
+    #[command(flatten)]
+    threads: ThreadsFlag,
     /// The file to write.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-}
-
-/// The basis of the lamps' Stokes vector.
-#[derive(Clone, Copy, Default, clap::ValueEnum)]
-pub(super) enum Basis {
-    /// s is perpendicular to the plane of incidence at every point.
-    #[default]
-    Plane,
-    /// s is horizontal.
-    Horizontal,
-}
-
-impl From<Basis> for LampBasis {
-    fn from(basis: Basis) -> Self {
-        match basis {
-            Basis::Plane => Self::PlaneOfIncidence,
-            Basis::Horizontal => Self::Horizontal,
-        }
-    }
 }
 
 /// Most pixels times samples: a picture of 8192² with 16 samples.
 const MOST_SAMPLES: usize = 1 << 30;
 
 /// Renders the picture and writes it.
-pub(super) fn preview(args: &PreviewArgs) -> Result<(), Stop> {
+pub(super) fn preview(args: &PreviewArgs) -> Result<(), CommandError> {
     let format = PictureFormat::of_name(&args.output.to_string_lossy());
     let format = format.filter(|format| *format != PictureFormat::Hdr).ok_or_else(|| {
-        Stop::Refused("the name of the output ends with .png, .exr or .pfm".into())
+        CommandError::Refused("the name of the output ends with .png, .exr or .pfm".into())
     })?;
     if args.spectral && format != PictureFormat::Exr {
-        return Err(Stop::Refused("--spectral writes an .exr".into()));
+        return Err(CommandError::Refused("--spectral writes an .exr".into()));
     }
     let scene = args.scene()?;
     let filter = args.polarization()?;
-    let source = Source::read(&args.material)?;
-    let material = prepared(&args.material, &source, args.compat)?;
-    let wavelengths = query::nodes("lambda", &args.lambda).map_err(refused)?;
+    let source = InputText::read(&args.material)?;
+    let material = prepared(&args.material, &source, args.compat.mode())?;
+    let wavelengths = query::nodes("lambda", args.lambda.or("400:10:700")).map_err(refused)?;
     let settings = args.settings()?;
-    let made = watched(args.threads, &source.stem(), |control| {
+    let made = args.threads.run(&source.stem(), |control| {
         preview::render(&material, &scene, &wavelengths, settings.clone(), control)
     });
     let film = made?.map_err(refused)?;
-    let failed = |error: String| Stop::Failed(error);
+    let failed = |error: String| CommandError::Failed(error);
     let grid = Grid::new(&wavelengths).map_err(|error| failed(error.to_string()))?;
     let plan = ColourPlan::new(&grid, settings).map_err(|error| failed(error.to_string()))?;
     let bytes = if args.spectral {
@@ -166,8 +144,13 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), Stop> {
 }
 
 impl PreviewArgs {
-    fn image(&self, film: &Film, plan: &ColourPlan, filter: Polarization) -> Result<Image, Stop> {
-        let failed = |error: pictures::image::ImageError| Stop::Failed(error.to_string());
+    fn image(
+        &self,
+        film: &Film,
+        plan: &ColourPlan,
+        filter: Polarization,
+    ) -> Result<Image, CommandError> {
+        let failed = |error: pictures::image::ImageError| CommandError::Failed(error.to_string());
         let seen = picture(film, plan, filter, self.exposure).map_err(failed)?;
         if !self.side_by_side {
             return Ok(seen);
@@ -176,20 +159,20 @@ impl PreviewArgs {
         side_by_side(&plain, &seen).map_err(failed)
     }
 
-    fn settings(&self) -> Result<ColourSettings, Stop> {
-        let names = ColourNames::of_factors(&self.illuminant);
+    fn settings(&self) -> Result<ColourSettings, CommandError> {
+        let names = ColourNames::of_factors(&self.illuminant.illuminant);
         names.settings(Some(&DiskFiles::beside(&self.material))).map_err(refused)
     }
 
-    fn scene(&self) -> Result<Scene, Stop> {
+    fn scene(&self) -> Result<Scene, CommandError> {
         let size = self.pixels()?;
         let samples = size[0].checked_mul(size[1]).and_then(|n| n.checked_mul(self.samples));
         if !samples.is_some_and(|n| (1..=MOST_SAMPLES).contains(&n)) {
             let most = format!("pixels times --samples are 1 to {MOST_SAMPLES}");
-            return Err(Stop::Refused(most));
+            return Err(CommandError::Refused(most));
         }
         if !self.exposure.is_finite() {
-            return Err(Stop::Refused("--exposure is a number".into()));
+            return Err(CommandError::Refused("--exposure is a number".into()));
         }
         Ok(Scene {
             shape: self.body()?,
@@ -205,18 +188,18 @@ impl PreviewArgs {
         })
     }
 
-    fn sky(&self) -> Result<Sky, Stop> {
+    fn sky(&self) -> Result<Sky, CommandError> {
         let usual = if self.environment.is_some() { 1.0 } else { 0.0 };
         let factor = self.sky.unwrap_or(usual);
         if !(factor >= 0.0 && factor.is_finite()) {
-            return Err(Stop::Refused("--sky is not negative".into()));
+            return Err(CommandError::Refused("--sky is not negative".into()));
         }
         match &self.environment {
             _ if factor == 0.0 => Ok(Sky::Dark),
             None => Ok(Sky::Uniform(factor)),
             Some(path) => {
                 let refused = |error: &dyn std::fmt::Display| {
-                    Stop::Refused(format!("--environment {}: {error}", path.display()))
+                    CommandError::Refused(format!("--environment {}: {error}", path.display()))
                 };
                 let bytes = std::fs::read(path).map_err(|error| refused(&error))?;
                 let picture = Image::read(&bytes).map_err(|error| refused(&error))?;
@@ -228,15 +211,15 @@ impl PreviewArgs {
         }
     }
 
-    fn pixels(&self) -> Result<[usize; 2], Stop> {
+    fn pixels(&self) -> Result<[usize; 2], CommandError> {
         let (width, height) = self.size.split_once('x').unwrap_or((&self.size, &self.size));
         match (width.parse(), height.parse()) {
             (Ok(width), Ok(height)) => Ok([width, height]),
-            _ => Err(Stop::Refused(format!("--size is 512 or 640x480, not {}", self.size))),
+            _ => Err(CommandError::Refused(format!("--size is 512 or 640x480, not {}", self.size))),
         }
     }
 
-    fn body(&self) -> Result<Shape, Stop> {
+    fn body(&self) -> Result<Shape, CommandError> {
         match self.shape.as_str() {
             "sphere" => return Ok(Shape::Sphere),
             "torus" => return Ok(Shape::Mesh(Mesh::torus(192))),
@@ -246,32 +229,39 @@ impl PreviewArgs {
         if let Some(angle) = self.shape.strip_prefix("plane:") {
             return match angle.parse::<f64>() {
                 Ok(angle) if angle.abs() < 90.0 => Ok(Shape::Plane(angle.to_radians())),
-                _ => Err(Stop::Refused(format!("--shape plane:ANGLE is below 90, not {angle}"))),
+                _ => Err(CommandError::Refused(format!(
+                    "--shape plane:ANGLE is below 90, not {angle}"
+                ))),
             };
         }
         let path = Path::new(&self.shape);
         let bytes = |path| {
-            let refused = |error| Stop::Refused(format!("cannot read {}: {error}", self.shape));
+            let refused =
+                |error| CommandError::Refused(format!("cannot read {}: {error}", self.shape));
             std::fs::read(path).map_err(refused)
         };
         let mesh = match path.extension().and_then(|extension| extension.to_str()) {
-            Some("obj") => Mesh::from_obj(&Source::read(path)?.text),
+            Some("obj") => Mesh::from_obj(&InputText::read(path)?.text),
             Some("ply") => Mesh::from_ply(&bytes(path)?),
             _ => {
                 let choice = "sphere, torus, knot, plane:ANGLE or a file NAME.obj or NAME.ply";
-                return Err(Stop::Refused(format!("--shape is {choice}, not {}", self.shape)));
+                return Err(CommandError::Refused(format!(
+                    "--shape is {choice}, not {}",
+                    self.shape
+                )));
             }
         };
-        mesh.map(Shape::Mesh).map_err(|error| Stop::Refused(format!("{}: {error}", self.shape)))
+        mesh.map(Shape::Mesh)
+            .map_err(|error| CommandError::Refused(format!("{}: {error}", self.shape)))
     }
 
-    fn polarization(&self) -> Result<Polarization, Stop> {
+    fn polarization(&self) -> Result<Polarization, CommandError> {
         if self.dolp { Ok(Polarization::Degree) } else { filter(&self.filter) }
     }
 }
 
 /// What `--filter` names.
-pub(super) fn filter(text: &str) -> Result<Polarization, Stop> {
+pub(super) fn filter(text: &str) -> Result<Polarization, CommandError> {
     match text {
         "none" => return Ok(Polarization::All),
         "left" => return Ok(Polarization::Left),
@@ -281,15 +271,15 @@ pub(super) fn filter(text: &str) -> Result<Polarization, Stop> {
     let angle = text.strip_prefix("linear:").and_then(|text| text.parse::<f64>().ok());
     let angle = angle.filter(|angle| angle.is_finite());
     angle.map(|a| Polarization::Linear(a.to_radians())).ok_or_else(|| {
-        Stop::Refused(format!("--filter is none, linear:ANGLE, left or right, not {text}"))
+        CommandError::Refused(format!("--filter is none, linear:ANGLE, left or right, not {text}"))
     })
 }
 
 /// `POLAR,AZIMUTH[,RADIUS[,E]]`
-fn lamp(text: &str) -> Result<Lamp, Stop> {
+fn lamp(text: &str) -> Result<Lamp, CommandError> {
     let refused = || {
         let expected = "POLAR,AZIMUTH[,RADIUS[,E]] in degrees with 0 ≤ RADIUS ≤ 90 and E ≥ 0";
-        Stop::Refused(format!("--lamp is {expected}, not {text}"))
+        CommandError::Refused(format!("--lamp is {expected}, not {text}"))
     };
     let numbers: Vec<f64> = text
         .split(',')

@@ -1,4 +1,4 @@
-//! Progress on a terminal; silence elsewhere.
+//! TerminalProgress on a terminal; silence elsewhere.
 
 use std::{io::IsTerminal, time::Duration};
 
@@ -9,11 +9,11 @@ const STEPS: u64 = 10_000;
 
 /// The progress of one run.
 #[derive(Clone, Debug)]
-pub(crate) struct Progress {
+pub(crate) struct TerminalProgress {
     bar: ProgressBar,
 }
 
-impl Progress {
+impl TerminalProgress {
     /// A bar with `label` before it, drawn on standard error if that is a terminal.
     pub(crate) fn new(label: &str) -> Self {
         let target = match std::io::stderr().is_terminal() {

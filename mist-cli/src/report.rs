@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 /// Excerpts longer than this are not shown: a program on one line of a megabyte helps no one.
 const EXCERPT_BYTES: usize = 2000;
 
-/// Who reads diagnostics.
+/// Form of diagnostics.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum MessageFormat {
     /// Text with an excerpt, on standard error.
@@ -19,30 +19,35 @@ pub(crate) enum MessageFormat {
     Json,
 }
 
-/// A message with what to try, on a line of its own.
+/// A message, and its help on a line of its own.
 pub(crate) fn with_help(message: &str, help: Option<&str>) -> String {
     help.map_or_else(|| message.to_owned(), |help| format!("{message}\n  help: {help}"))
 }
 
-/// Says a line on standard error.
-pub(crate) fn say(line: &str) {
-    // There is no one to tell that standard error is closed.
+/// Prints a line on standard error.
+pub(crate) fn print_line(line: &str) {
+    // Nobody can be told that standard error is closed.
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
-/// Tells the diagnostics about the text `source` of the file `file`.
-pub(crate) fn tell(diagnostics: &[Diagnostic], file: &str, source: &str, format: MessageFormat) {
+/// Prints the diagnostics about the text `source` of the file `file`.
+pub(crate) fn print_diagnostics(
+    diagnostics: &[Diagnostic],
+    file: &str,
+    source: &str,
+    format: MessageFormat,
+) {
     let lines = LineIndex::new(source);
     for diagnostic in diagnostics {
         match format {
             MessageFormat::Human => {
                 let styled =
                     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-                say(&human(diagnostic, file, source, &lines, styled));
+                print_line(&human(diagnostic, file, source, &lines, styled));
             }
             MessageFormat::Json => {
                 let line = to_json(diagnostic, file, source, &lines);
-                // There is no one to tell that standard output is closed.
+                // Nobody can be told that standard output is closed.
                 let _ = writeln!(std::io::stdout().lock(), "{line}");
             }
         }

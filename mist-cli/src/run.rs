@@ -6,23 +6,22 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{Control, Failure, Job, Options, RunSummary, compile};
+use mist_engine::{Control, Failure, Job, RunSummary, compile};
 use mist_runner::{
     files::DiskFiles,
     run::{RunError, ShardRun, WrittenFile, run_shard, run_to_files},
     shard::Shard,
 };
-use scattering::Mode;
 
 use super::{
-    print,
-    source::Source,
-    stop::{Fate, Stop},
-};
-use crate::{
+    error::{CommandError, ExitStatus},
+    flags::{EngineFlags, MessageFlag},
+    input::InputText,
     interrupt,
-    progress::Progress,
-    report::{self, MessageFormat},
+    output::print,
+    progress::TerminalProgress,
+    report,
+    threads::ThreadsFlag,
 };
 
 /// Run programs and write their tables.
@@ -46,12 +45,10 @@ pub(super) struct RunArgs {
     /// program's name].
     #[arg(long, value_name = "NAME")]
     job: Option<String>,
-    /// Give NIST's tables, its defects included.
-    #[arg(long)]
-    compat: bool,
-    /// Threads [default: one per processor]; results do not depend on it.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    engine: EngineFlags,
+    #[command(flatten)]
+    threads: ThreadsFlag,
     /// Folder for the results.
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
@@ -59,19 +56,15 @@ pub(super) struct RunArgs {
     /// interruption. `mist merge` puts the parts together.
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
-    /// Seed of the Monte Carlo modes.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Who reads the diagnostics.
-    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    message_format: MessageFormat,
+    #[command(flatten)]
+    message: MessageFlag,
 }
 
 impl RunArgs {
     /// NIST's program takes a second argument for the name of the job.
     fn take_job_name(&mut self) {
         let [_, second] = &self.programs[..] else { return };
-        if self.compat && self.job.is_none() && !second.exists() {
+        if self.engine.compat.compat && self.job.is_none() && !second.exists() {
             self.job = Some(second.to_string_lossy().into_owned());
             self.programs.truncate(1);
         }
@@ -79,71 +72,67 @@ impl RunArgs {
 }
 
 /// Runs the programs one after the other; each uses all threads.
-pub(super) fn run(mut args: RunArgs) -> Result<(), Stop> {
+pub(super) fn run(mut args: RunArgs) -> Result<(), CommandError> {
     args.take_job_name();
     let args = &args;
     fs::create_dir_all(&args.out).map_err(|error| {
-        Stop::Failed(format!("cannot make the folder {}: {error}", args.out.display()))
+        CommandError::Failed(format!("cannot make the folder {}: {error}", args.out.display()))
     })?;
     if args.job.is_some() && args.programs.len() > 1 {
-        return Err(Stop::Refused("--job names one job, but there are several programs".into()));
+        return Err(CommandError::Refused(
+            "--job names one job, but there are several programs".into(),
+        ));
     }
-    let pool = pool(args.threads)?;
+    let pool = args.threads.pool()?;
     let cancel = interrupt::flag();
-    let runs = || -> Result<Vec<Fate>, Stop> {
-        let mut fates = Vec::new();
+    let runs = || -> Result<Vec<ExitStatus>, CommandError> {
+        let mut statuses = Vec::new();
         for program in &args.programs {
             let control = Control { cancel: cancel.clone(), progress: None };
-            fates.push(run_one(args, program, control)?);
+            statuses.push(run_one(args, program, control)?);
             if cancel.load(std::sync::atomic::Ordering::Relaxed) {
                 break;
             }
         }
-        Ok(fates)
+        Ok(statuses)
     };
-    let fates = pool.install(runs)?;
+    let statuses = pool.install(runs)?;
     if args.programs.len() > 1 {
-        print(&total(&fates, args.programs.len()))?;
+        print(&total(&statuses, args.programs.len()))?;
     }
-    fates.into_iter().max().unwrap_or(Fate::Good).done()
+    statuses.into_iter().max().unwrap_or(ExitStatus::Success).into_result()
 }
 
-/// Threads for a run.
-pub(super) fn pool(threads: Option<usize>) -> Result<rayon::ThreadPool, Stop> {
-    if threads == Some(0) {
-        return Err(Stop::Refused("--threads must be 1 or more".into()));
-    }
-    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
-    builder.build().map_err(|error| Stop::Failed(format!("cannot start threads: {error}")))
-}
-
-/// Sound, or as NIST computes it.
-pub(super) fn mode(compat: bool) -> Mode {
-    if compat { Mode::Compat } else { Mode::Sound }
-}
-
-fn run_one(args: &RunArgs, program: &Path, mut control: Control) -> Result<Fate, Stop> {
-    let source = match Source::program(program) {
+fn run_one(
+    args: &RunArgs,
+    program: &Path,
+    mut control: Control,
+) -> Result<ExitStatus, CommandError> {
+    let source = match InputText::program(program) {
         Ok(source) => source,
-        Err(Stop::Refused(message)) => {
-            report::say(&format!("error: {message}"));
-            return Ok(Fate::Refused);
+        Err(CommandError::Refused(message)) => {
+            report::print_line(&format!("error: {message}"));
+            return Ok(ExitStatus::Refused);
         }
         Err(stop) => return Err(stop),
     };
-    let job = args.job.clone().unwrap_or_else(|| source.stem());
-    let options = Options { mode: mode(args.compat), job, seed: args.seed, ..Options::default() };
+    let options = args.engine.options(&source, args.job.as_deref());
     let tell = |diagnostics: &[_]| {
-        report::tell(diagnostics, &source.name(), &source.text, args.message_format);
+        report::print_diagnostics(
+            diagnostics,
+            &source.name(),
+            &source.text,
+            args.message.message_format,
+        );
     };
     let job = match compile(&source.text, DiskFiles::beside(program).shared(), &options) {
         Ok(job) => job,
         Err(diagnostics) => {
             tell(&diagnostics);
-            return Ok(Fate::Refused);
+            return Ok(ExitStatus::Refused);
         }
     };
-    let progress = Progress::new(&options.job);
+    let progress = TerminalProgress::new(&options.job);
     let bar = progress.clone();
     control.progress = Some(Box::new(move |part| bar.set(part)));
     let done = match args.shard {
@@ -157,19 +146,19 @@ fn run_one(args: &RunArgs, program: &Path, mut control: Control) -> Result<Fate,
         Ok((said, summary)) => {
             note(&source.name(), &summary);
             print(&said)?;
-            Ok(Fate::Good)
+            Ok(ExitStatus::Success)
         }
         Err(RunError::Engine(Failure::Program(diagnostics))) => {
             tell(&diagnostics);
-            Ok(Fate::Refused)
+            Ok(ExitStatus::Refused)
         }
         Err(RunError::Engine(Failure::Step { step, fault })) => {
             tell(&[fault.note(format!("in step {}", step + 1))]);
-            Ok(Fate::Failed)
+            Ok(ExitStatus::Failed)
         }
         Err(error) => {
-            report::say(&format!("error: {}: {error}", source.name()));
-            Ok(if error.is_refusal() { Fate::Refused } else { Fate::Failed })
+            report::print_line(&format!("error: {}: {error}", source.name()));
+            Ok(if error.is_refusal() { ExitStatus::Refused } else { ExitStatus::Failed })
         }
     }
 }
@@ -214,18 +203,18 @@ fn shown(path: &Path) -> &Path {
 
 fn note(file: &str, summary: &RunSummary) {
     for notice in &summary.met {
-        report::say(&format!("note: {file}: {notice}"));
+        report::print_line(&format!("note: {file}: {notice}"));
     }
 }
 
 /// One line for many programs.
-fn total(fates: &[Fate], programs: usize) -> String {
-    let count = |fate| fates.iter().filter(|each| **each == fate).count();
+fn total(statuses: &[ExitStatus], programs: usize) -> String {
+    let count = |status| statuses.iter().filter(|each| **each == status).count();
     format!(
         "{programs} programs: {} good, {} failed, {} refused, {} not started\n",
-        count(Fate::Good),
-        count(Fate::Failed),
-        count(Fate::Refused),
-        programs - fates.len(),
+        count(ExitStatus::Success),
+        count(ExitStatus::Failed),
+        count(ExitStatus::Refused),
+        programs - statuses.len(),
     )
 }

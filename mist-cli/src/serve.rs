@@ -4,8 +4,12 @@ use std::{io::IsTerminal, net::SocketAddr, path::PathBuf};
 
 use mist_server::{ServeLimits, ServeOptions, http};
 
-use super::{print, source::Source, stop::Stop};
-use crate::report::{self, MessageFormat};
+use super::{
+    error::CommandError,
+    input::InputText,
+    output::print,
+    report::{self, MessageFormat},
+};
 
 /// Answer renderers over HTTP.
 ///
@@ -43,20 +47,22 @@ pub(super) struct ServeArgs {
 }
 
 /// Answers until it is interrupted.
-pub(super) fn serve(args: &ServeArgs) -> Result<(), Stop> {
+pub(super) fn serve(args: &ServeArgs) -> Result<(), CommandError> {
     if args.openapi {
         return print(&http::openapi());
     }
     start_log(args);
-    let keys = args.keys.as_deref().map(Source::read).transpose()?;
+    let keys = args.keys.as_deref().map(InputText::read).transpose()?;
     let options = ServeOptions {
         listen: args.listen,
         data: args.data.clone(),
         keys: keys.map(|source| source.text),
         limits: args.limits.clone(),
     };
-    mist_server::serve(&options, |address| report::say(&format!("listening on http://{address}")))
-        .map_err(|error| Stop::Failed(error.to_string()))
+    mist_server::serve(&options, |address| {
+        report::print_line(&format!("listening on http://{address}"))
+    })
+    .map_err(|error| CommandError::Failed(error.to_string()))
 }
 
 /// The log goes to standard error: lines for people, or a JSON object per line.

@@ -17,17 +17,19 @@ use rise_bridge::{
 };
 
 use super::{
+    error::CommandError,
+    flags::{CompatFlag, IlluminantFlag, LambdaFlag, ObserverFlag},
+    input::InputText,
     material::{prepared, refused},
-    print,
-    source::Source,
-    stop::Stop,
-    watch::watched,
+    output::print,
+    threads::ThreadsFlag,
 };
 
 /// Make the colour table of a material, or colour a table of results.
 ///
 /// A MATERIAL.json is {"model": …, "parameters": {…}, "files": {…}}; of a program the model of
-/// its first step counts. The extension of the output tells its form: .mtab, .mspd, .json, .svg.
+/// its first step counts. The extension of the output tells its form: .mtab, .mspd, .json,
+/// .svg. Without --lambda the wavelengths are 360:5:830.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -57,15 +59,12 @@ pub(super) struct TableArgs {
     /// polygon t p t p …, in degrees.
     #[arg(long, value_name = "FILE")]
     patches: Option<PathBuf>,
-    /// Wavelengths in nm.
-    #[arg(long, default_value = "360:5:830", value_name = "FIRST:STEP:LAST")]
-    lambda: String,
-    /// CIE name, colour temperature, D(temperature), or a file.
-    #[arg(long, default_value = "D65")]
-    illuminant: String,
-    /// Colour-matching functions.
-    #[arg(long, default_value = "CIE1931_2")]
-    observer: String,
+    #[command(flatten)]
+    lambda: LambdaFlag,
+    #[command(flatten)]
+    illuminant: IlluminantFlag,
+    #[command(flatten)]
+    observer: ObserverFlag,
     /// RGB space.
     #[arg(long, default_value = "sRGB")]
     space: String,
@@ -93,26 +92,27 @@ pub(super) struct TableArgs {
     /// Give the columns X Y Z too.
     #[arg(long)]
     xyz: bool,
-    /// Give NIST's numbers, its defects included.
-    #[arg(long)]
-    compat: bool,
-    /// Threads [default: one per processor].
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    compat: CompatFlag,
+    #[command(flatten)]
+    threads: ThreadsFlag,
     /// The file to write.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 }
 
 /// Makes the table and writes it.
-pub(super) fn table(args: &TableArgs) -> Result<(), Stop> {
+pub(super) fn table(args: &TableArgs) -> Result<(), CommandError> {
     let format = FileFormat::of_file(&args.output.to_string_lossy());
     let writer = format.and_then(FileFormat::colours).ok_or_else(|| {
         let known = formats::extensions(formats::of_colours().map(|(format, _)| format));
-        Stop::Refused(format!("the name of the output ends with one of {known}"))
+        CommandError::Refused(format!("the name of the output ends with one of {known}"))
     })?;
     if !(1..=17).contains(&args.digits) {
-        return Err(Stop::Refused(format!("--digits is from 1 to 17, not {}", args.digits)));
+        return Err(CommandError::Refused(format!(
+            "--digits is from 1 to 17, not {}",
+            args.digits
+        )));
     }
     let table = match &args.from {
         Some(from) => args.coloured(from)?,
@@ -120,7 +120,7 @@ pub(super) fn table(args: &TableArgs) -> Result<(), Stop> {
     };
     let style = Style { digits: args.digits, xyz: args.xyz };
     let written = colours::save(writer, &table, &args.output, style)
-        .map_err(|error| Stop::Failed(error.to_string()))?;
+        .map_err(|error| CommandError::Failed(error.to_string()))?;
     for path in written {
         print(&format!("{}: {} rows\n", path.display(), table.rows.len()))?;
     }
@@ -130,8 +130,8 @@ pub(super) fn table(args: &TableArgs) -> Result<(), Stop> {
 impl TableArgs {
     fn colours(&self) -> ColourNames {
         ColourNames {
-            illuminant: Some(self.illuminant.clone()),
-            observer: Some(self.observer.clone()),
+            illuminant: Some(self.illuminant.illuminant.clone()),
+            observer: Some(self.observer.observer.clone()),
             space: Some(self.space.clone()),
             adaptation: Some(self.adaptation.clone()),
             quantity: Some(self.quantity.clone()),
@@ -140,8 +140,8 @@ impl TableArgs {
     }
 
     /// The table of results, coloured.
-    fn coloured(&self, from: &Path) -> Result<ColourTable, Stop> {
-        let source = Source::read(from)?;
+    fn coloured(&self, from: &Path) -> Result<ColourTable, CommandError> {
+        let source = InputText::read(from)?;
         let (wavelength, value) = (self.wavelength.as_deref(), self.value.as_deref());
         let columns = Columns::parse(wavelength.unwrap_or_default(), value.unwrap_or_default())
             .map_err(refused)?;
@@ -152,7 +152,9 @@ impl TableArgs {
             "xyxy" => "xyxy",
             "plane" => "plane",
             other => {
-                return Err(Stop::Refused(format!("--basis is psps, xyxy or plane, not {other}")));
+                return Err(CommandError::Refused(format!(
+                    "--basis is psps, xyxy or plane, not {other}"
+                )));
             }
         };
         results::table(&source.text, &columns, &source.stem(), &settings, (incident, frame))
@@ -160,16 +162,16 @@ impl TableArgs {
     }
 
     /// The table of a material.
-    fn computed(&self) -> Result<ColourTable, Stop> {
+    fn computed(&self) -> Result<ColourTable, CommandError> {
         let path = self.material.as_deref().unwrap_or(Path::new(""));
-        let source = Source::read(path)?;
-        let prepared = prepared(path, &source, self.compat)?;
-        let patches = self.patches.as_deref().map(Source::read).transpose()?;
+        let source = InputText::read(path)?;
+        let prepared = prepared(path, &source, self.compat.mode())?;
+        let patches = self.patches.as_deref().map(InputText::read).transpose()?;
         let wanted = TableQuery {
             grid: self.grid.clone(),
             patches: patches.map(|source| source.text),
             patch: Some(self.patch.clone()),
-            lambda: Some(self.lambda.clone()),
+            lambda: self.lambda.lambda.clone(),
             incident: Some(self.incident.clone()),
             basis: Some(self.basis.clone()),
             stokes: self.stokes,
@@ -178,6 +180,6 @@ impl TableArgs {
         let files = DiskFiles::beside(path);
         let request = wanted.request(&source.stem(), Some(&files)).map_err(refused)?;
         let made = |control: &_| table::table(&prepared, &request, control);
-        watched(self.threads, &source.stem(), made)?.map_err(refused)
+        self.threads.run(&source.stem(), made)?.map_err(refused)
     }
 }

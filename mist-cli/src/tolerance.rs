@@ -7,9 +7,9 @@ use mist_engine::{
 use mist_format::number::general;
 
 use super::{
-    print,
-    source::Source,
-    stop::{Fate, Stop},
+    error::{CommandError, ExitStatus},
+    input::InputText,
+    output::print,
     vary::{self, Vary},
 };
 
@@ -32,19 +32,19 @@ pub(super) struct ToleranceArgs {
 }
 
 /// Computes and tells.
-pub(super) fn tolerance(args: &ToleranceArgs) -> Result<(), Stop> {
-    let source = Source::read(&args.vary.program)?;
+pub(super) fn tolerance(args: &ToleranceArgs) -> Result<(), CommandError> {
+    let source = InputText::read(&args.vary.program)?;
     let program = args.vary.open(&source)?;
     let run = |control: &Control| tolerance::tolerance(&program, args.step, control);
     match args.vary.watch("tolerance", run)? {
-        Ok(found) if args.vary.json => print(&vary::json(&found)?),
+        Ok(found) if args.vary.json.json => print(&vary::json(&found)?),
         Ok(found) => print(&describe(&found)),
         Err(ToleranceError::Run { failure: Failure::Program(diagnostics), .. }) => {
             vary::tell(&diagnostics, &source);
-            Err(Stop::Said(Fate::Refused))
+            Err(CommandError::Reported(ExitStatus::Refused))
         }
-        Err(error @ ToleranceError::Run { .. }) => Err(Stop::Failed(error.to_string())),
-        Err(error) => Err(Stop::Refused(format!("{}: {error}", source.name()))),
+        Err(error @ ToleranceError::Run { .. }) => Err(CommandError::Failed(error.to_string())),
+        Err(error) => Err(CommandError::Refused(format!("{}: {error}", source.name()))),
     }
 }
 

@@ -9,16 +9,17 @@ use rise_bridge::{
 };
 use spectra::{ColourPlan, Grid};
 
-use super::{BridgeArgs, Stop, render, save, save_image};
+use super::{BridgeArgs, LAMBDA, render, save, save_image};
 use crate::{
+    error::CommandError,
+    input::InputText,
     material::{not_exported, refused},
-    preview, print,
-    source::Source,
-    watch::watched,
+    output::print,
+    preview,
 };
 
 /// Writes the scenes, and the pictures if their renders are there or wanted.
-pub(super) fn deferred(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
+pub(super) fn deferred(args: &BridgeArgs, source: &InputText) -> Result<(), CommandError> {
     let filter = preview::filter(&args.filter)?;
     let lit = args.lit()?;
     let renderer = args.render.then(render::Renderer::of_environment).transpose()?;
@@ -44,7 +45,7 @@ pub(super) fn deferred(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
     let image = |name: &str| {
         render::read(&args.out.join(name)).map_err(|problem| ExportError::refused(name, problem))
     };
-    let film = watched(args.threads, &stem, |control| plan.film(image, &files, &lit, control))?;
+    let film = args.threads.run(&stem, |control| plan.film(image, &files, &lit, control))?;
     let film = film.map_err(not_exported)?;
     save_picture(args, &film, &lit, &format!("{stem}_deferred"), Polarization::All)?;
     if filter != Polarization::All {
@@ -54,10 +55,10 @@ pub(super) fn deferred(args: &BridgeArgs, source: &Source) -> Result<(), Stop> {
 }
 
 impl BridgeArgs {
-    fn lit(&self) -> Result<Illumination, Stop> {
-        let names = ColourNames::of_factors(&self.illuminant);
+    fn lit(&self) -> Result<Illumination, CommandError> {
+        let names = ColourNames::of_factors(&self.illuminant.illuminant);
         Ok(Illumination {
-            wavelengths: query::nodes("wavelengths", &self.wavelengths).map_err(refused)?,
+            wavelengths: query::nodes("lambda", self.lambda.or(LAMBDA)).map_err(refused)?,
             settings: names.settings(None).map_err(refused)?,
             light: query::stokes(&self.incident).map_err(refused)?,
             light_basis: self.incident_basis.into(),
@@ -71,8 +72,8 @@ fn save_picture(
     lit: &Illumination,
     name: &str,
     filter: Polarization,
-) -> Result<(), Stop> {
-    let failed = |error: &dyn std::fmt::Display| Stop::Failed(format!("{name}: {error}"));
+) -> Result<(), CommandError> {
+    let failed = |error: &dyn std::fmt::Display| CommandError::Failed(format!("{name}: {error}"));
     let grid = Grid::new(&lit.wavelengths).map_err(|error| failed(&error))?;
     let plan = ColourPlan::new(&grid, lit.settings.clone()).map_err(|error| failed(&error))?;
     let image = picture(film, &plan, filter, 1.0).map_err(|error| failed(&error))?;

@@ -14,7 +14,7 @@ use std::{
 
 use pictures::image::{Image, PictureFormat};
 
-use super::Stop;
+use crate::error::CommandError;
 
 /// The picture at `path`, all of whose values are numbers.
 pub(super) fn read(path: &Path) -> Result<Image, String> {
@@ -55,12 +55,12 @@ pub(super) struct Renderer {
 
 impl Renderer {
     /// The one that RISE_BIN names.
-    pub(super) fn of_environment() -> Result<Self, Stop> {
+    pub(super) fn of_environment() -> Result<Self, CommandError> {
         let named = env::var_os(VARIABLE).filter(|name| !name.is_empty()).ok_or_else(|| {
-            Stop::Refused(format!("--render needs {VARIABLE} to name the program of RISE"))
+            CommandError::Refused(format!("--render needs {VARIABLE} to name the program of RISE"))
         })?;
         let program = fs::canonicalize(&named).map_err(|error| {
-            Stop::Refused(format!("{VARIABLE} = {}: {error}", named.to_string_lossy()))
+            CommandError::Refused(format!("{VARIABLE} = {}: {error}", named.to_string_lossy()))
         })?;
         Ok(Self { program })
     }
@@ -72,8 +72,8 @@ impl Renderer {
         scene: &str,
         images: &[String],
         judge: fn(&Path) -> Result<Image, String>,
-    ) -> Result<String, Stop> {
-        let failed = |problem: String| Stop::Failed(format!("{scene}: {problem}"));
+    ) -> Result<String, CommandError> {
+        let failed = |problem: String| CommandError::Failed(format!("{scene}: {problem}"));
         let folder = fs::canonicalize(folder).map_err(|error| failed(error.to_string()))?;
         if images.is_empty() {
             return Err(failed("it has no file_rasterizeroutput, so nothing would be seen".into()));

@@ -9,33 +9,35 @@ use std::{
 use mist_format::program::MAX_PROGRAM_BYTES;
 use mist_runner::files::decode;
 
-use super::Stop;
+use super::error::CommandError;
 
 /// A text and where it came from.
-pub(super) struct Source {
+pub(super) struct InputText {
     /// Its file, as it was given.
     pub(super) path: PathBuf,
     /// Its text.
     pub(super) text: String,
 }
 
-impl Source {
+impl InputText {
     /// Reads the file at `path`.
-    pub(super) fn read(path: &Path) -> Result<Self, Stop> {
+    pub(super) fn read(path: &Path) -> Result<Self, CommandError> {
         Self::of(path, u64::MAX)
     }
 
     /// Reads the program at `path`, up to a byte more than a program may have: whoever compiles a
     /// longer one refuses it.
-    pub(super) fn program(path: &Path) -> Result<Self, Stop> {
+    pub(super) fn program(path: &Path) -> Result<Self, CommandError> {
         Self::of(path, MAX_PROGRAM_BYTES as u64 + 1)
     }
 
-    fn of(path: &Path, most: u64) -> Result<Self, Stop> {
+    fn of(path: &Path, most: u64) -> Result<Self, CommandError> {
         let mut bytes = Vec::new();
         match File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)) {
             Ok(_) => Ok(Self { path: path.to_owned(), text: decode(bytes) }),
-            Err(error) => Err(Stop::Refused(format!("cannot read {}: {error}", path.display()))),
+            Err(error) => {
+                Err(CommandError::Refused(format!("cannot read {}: {error}", path.display())))
+            }
         }
     }
 
@@ -52,13 +54,13 @@ impl Source {
 }
 
 /// Standard input, or the file at `path`.
-pub(super) fn read_input(path: Option<&Path>) -> Result<String, Stop> {
+pub(super) fn read_input(path: Option<&Path>) -> Result<String, CommandError> {
     if let Some(path) = path {
-        return Source::read(path).map(|source| source.text);
+        return InputText::read(path).map(|source| source.text);
     }
     let mut bytes = Vec::new();
     match std::io::stdin().lock().read_to_end(&mut bytes) {
         Ok(_) => Ok(decode(bytes)),
-        Err(error) => Err(Stop::Refused(format!("cannot read standard input: {error}"))),
+        Err(error) => Err(CommandError::Refused(format!("cannot read standard input: {error}"))),
     }
 }

@@ -1,0 +1,109 @@
+//! Flags of several commands: one name for one thing.
+
+use preview::LampBasis;
+use scattering::Mode;
+
+use super::{input::InputText, report::MessageFormat};
+
+/// The flag `--compat`.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct CompatFlag {
+    /// Read and compute as NIST's program does, its defects included.
+    #[arg(long)]
+    pub(super) compat: bool,
+}
+
+impl CompatFlag {
+    /// Sound, or as NIST computes it.
+    pub(super) fn mode(self) -> Mode {
+        if self.compat { Mode::Compat } else { Mode::Sound }
+    }
+}
+
+/// The flags of everything that runs a program.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct EngineFlags {
+    #[command(flatten)]
+    pub(super) compat: CompatFlag,
+    /// Seed of the Monte Carlo modes.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+impl EngineFlags {
+    /// The options for the program in `source`, whose job is called `job` or after the program.
+    pub(super) fn options(self, source: &InputText, job: Option<&str>) -> mist_engine::Options {
+        mist_engine::Options {
+            mode: self.compat.mode(),
+            job: job.map_or_else(|| source.stem(), str::to_owned),
+            seed: self.seed,
+            ..mist_engine::Options::default()
+        }
+    }
+}
+
+/// The flag `--lambda`; each command has its own default.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct LambdaFlag {
+    /// Wavelengths in nm: a list, FIRST:STEP:LAST, or both mixed [default: see above].
+    #[arg(long, alias = "wavelengths", value_name = "NM")]
+    pub(super) lambda: Option<String>,
+}
+
+impl LambdaFlag {
+    /// The text of the flag, or `default`.
+    pub(super) fn or<'a>(&'a self, default: &'a str) -> &'a str {
+        self.lambda.as_deref().unwrap_or(default)
+    }
+}
+
+/// The flag `--illuminant`.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct IlluminantFlag {
+    /// Light of the colours: CIE name, colour temperature, D(temperature), or a file.
+    #[arg(long, default_value = "D65")]
+    pub(super) illuminant: String,
+}
+
+/// The flag `--observer`.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct ObserverFlag {
+    /// Colour-matching functions.
+    #[arg(long, default_value = "CIE1931_2")]
+    pub(super) observer: String,
+}
+
+/// The flag `--message-format`.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct MessageFlag {
+    /// Form of the diagnostics.
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(super) message_format: MessageFormat,
+}
+
+/// The flag `--json`.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(super) struct JsonFlag {
+    /// Print JSON.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// The values of `--incident-basis`.
+#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+pub(super) enum LampBasisName {
+    /// s is perpendicular to the plane of incidence at every point.
+    #[default]
+    Plane,
+    /// s is horizontal.
+    Horizontal,
+}
+
+impl From<LampBasisName> for LampBasis {
+    fn from(basis: LampBasisName) -> Self {
+        match basis {
+            LampBasisName::Plane => Self::PlaneOfIncidence,
+            LampBasisName::Horizontal => Self::Horizontal,
+        }
+    }
+}
