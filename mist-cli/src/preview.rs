@@ -6,8 +6,8 @@ use mist_engine::material::query::{self, ColourNames};
 use mist_runner::files::{AtomicFile, DiskFiles};
 use pictures::image::{Image, PictureFormat};
 use preview::{
-    Environment, Film, Lamp, LampBasis, Polarization, Scene, Shape, Sky, brightest, mesh::Mesh,
-    picture, side_by_side, spectral_exr,
+    Environment, Film, Lamp, Polarization, Scene, Shape, Sky, brightest, mesh::Mesh, picture,
+    side_by_side, spectral_exr,
 };
 use spectra::{ColourPlan, ColourSettings, Grid};
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use mist_engine::{
-    Control, Options,
+    Control,
     function::{FunctionError, ProgramFunction},
 };
 use mist_format::Diagnostic;
