@@ -73,7 +73,8 @@ pub fn read(text: &str) -> Result<SuiteProgram, String> {
     while let Some((index, line)) = lines.next() {
         let Some(instruction) = line.trim_start().strip_prefix(";@") else { continue };
         let mut body = Vec::new();
-        while let Some(text) = lines.peek().and_then(|(_, line)| line.trim_start().strip_prefix(";|"))
+        while let Some(text) =
+            lines.peek().and_then(|(_, line)| line.trim_start().strip_prefix(";|"))
         {
             body.push(text.strip_prefix(' ').unwrap_or(text));
             lines.next();
@@ -174,7 +175,10 @@ mod tests {
     fn diagnostics_have_a_code_and_maybe_a_place() {
         let program = read(";@ sound refused model/value at `1 2`\n;| needs\n").unwrap();
         let ExpectedOutcome::Refused(expected) = &program.expectations[0].outcome else { panic!() };
-        assert_eq!((expected.code.as_str(), expected.place.as_deref()), ("model/value", Some("1 2")));
+        assert_eq!(
+            (expected.code.as_str(), expected.place.as_deref()),
+            ("model/value", Some("1 2"))
+        );
         assert_eq!(expected.contains, ["needs"]);
     }
 }

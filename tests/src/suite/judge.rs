@@ -68,7 +68,9 @@ fn run_job(job: &Job, found: &mut FoundOutcome) {
 }
 
 fn differences(
-    program: &SuiteProgram, found: &FoundOutcome, expected: &[&Expectation],
+    program: &SuiteProgram,
+    found: &FoundOutcome,
+    expected: &[&Expectation],
 ) -> Vec<String> {
     let mut faults = Vec::new();
     let mut warnings: Vec<&Diagnostic> = found.warnings.iter().collect();
@@ -84,21 +86,18 @@ fn differences(
                 has_outcome = true;
                 refusal(program, found, expected)
             }
-            ExpectedOutcome::Warns(expected) => {
-                take_warning(program, &mut warnings, expected)
-            }
+            ExpectedOutcome::Warns(expected) => take_warning(program, &mut warnings, expected),
             ExpectedOutcome::Meets(name) => {
                 let is_met = met.iter().find(|notice| notice.contains(name.as_str())).cloned();
-                is_met.map(|notice| met.remove(&notice)).map(drop).ok_or_else(|| {
-                    format!("{name} is not met, only {:?}", found.met)
-                })
+                is_met
+                    .map(|notice| met.remove(&notice))
+                    .map(drop)
+                    .ok_or_else(|| format!("{name} is not met, only {:?}", found.met))
             }
         };
         faults.extend(fault.err().map(|why| format!("line {}: {why}", expectation.line)));
     }
-    if !has_outcome
-        && let Err(diagnostics) = &found.results
-    {
+    if !has_outcome && let Err(diagnostics) = &found.results {
         faults.push(format!("refused: {}", shown(program, diagnostics)));
     }
     faults.extend(warnings.iter().map(|w| format!("unexpected {}", one(program, w))));
@@ -106,16 +105,15 @@ fn differences(
     faults
 }
 
-fn results(
-    found: &FoundOutcome, table: &str, relative: f64, of_row: f64,
-) -> Result<(), String> {
+fn results(found: &FoundOutcome, table: &str, relative: f64, of_row: f64) -> Result<(), String> {
     let got = found.results.as_ref().map_err(|diagnostics| {
         format!("refused: {}", diagnostics.iter().map(ToString::to_string).collect::<String>())
     })?;
     let got = words(got);
     let tolerance = Tolerance { relative, of_row, header_lines: 1, loop_columns: 0 };
-    tables(&got, &words(table), tolerance)
-        .map_err(|why| format!("{why}; the run gives\n;| {}", got.trim_end().replace('\n', "\n;| ")))
+    tables(&got, &words(table), tolerance).map_err(|why| {
+        format!("{why}; the run gives\n;| {}", got.trim_end().replace('\n', "\n;| "))
+    })
 }
 
 /// The words of every line that is not blank, with tabs between them.
@@ -125,7 +123,9 @@ fn words(text: &str) -> String {
 }
 
 fn refusal(
-    program: &SuiteProgram, found: &FoundOutcome, expected: &ExpectedDiagnostic,
+    program: &SuiteProgram,
+    found: &FoundOutcome,
+    expected: &ExpectedDiagnostic,
 ) -> Result<(), String> {
     match &found.results {
         Ok(table) => Err(format!("not refused; the run gives\n{table}")),
@@ -135,7 +135,9 @@ fn refusal(
 }
 
 fn take_warning(
-    program: &SuiteProgram, warnings: &mut Vec<&Diagnostic>, expected: &ExpectedDiagnostic,
+    program: &SuiteProgram,
+    warnings: &mut Vec<&Diagnostic>,
+    expected: &ExpectedDiagnostic,
 ) -> Result<(), String> {
     match warnings.iter().position(|warning| agrees(program, warning, expected)) {
         Some(at) => {
