@@ -7,7 +7,7 @@ use std::{
 };
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use mist_engine::{Control, material::Prepared};
+use mist_engine::{Control, material::PreparedMaterial};
 use mist_runner::files::AtomicFile;
 use rise_bridge::{
     formats::{self, ExportRequest, FileFormat, MaterialWriter},
@@ -89,7 +89,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), CommandError> {
 fn done(
     args: &ExportArgs,
     source: &InputText,
-    material: &Prepared,
+    material: &PreparedMaterial,
     control: &Control,
 ) -> Result<String, CommandError> {
     match (&args.compare, &args.output) {
@@ -140,7 +140,7 @@ fn format_parser() -> impl TypedValueParser<Value = &'static FileFormat> {
 /// Writes the table into a file that appears when it is whole; gives the line about it.
 fn save(
     writer: MaterialWriter,
-    material: &Prepared,
+    material: &PreparedMaterial,
     request: &ExportRequest,
     path: &Path,
     control: &Control,
@@ -154,7 +154,7 @@ fn save(
     Ok(line)
 }
 
-fn compare(material: &Prepared, path: &Path, control: &Control) -> Result<String, CommandError> {
+fn compare(material: &PreparedMaterial, path: &Path, control: &Control) -> Result<String, CommandError> {
     let name = path.display();
     let file =
         File::open(path).map_err(|e| CommandError::Refused(format!("cannot read {name}: {e}")))?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use mist_engine::{
     Failure, Options, compile,
-    material::{Material, MaterialError, Prepared},
+    material::{Material, MaterialError, PreparedMaterial},
 };
 use mist_runner::files::DiskFiles;
 use rise_bridge::export::ExportError;
@@ -21,7 +21,7 @@ pub(super) fn prepared(
     path: &Path,
     source: &InputText,
     mode: Mode,
-) -> Result<Prepared, CommandError> {
+) -> Result<PreparedMaterial, CommandError> {
     let files = DiskFiles::beside(path).shared();
     if source.text.trim_start().starts_with('{') {
         let material = Material::from_json(&source.text).map_err(refused)?;
@@ -33,7 +33,7 @@ pub(super) fn prepared(
         CommandError::Reported(ExitStatus::Refused)
     };
     let job = compile(&source.text, files, &options).map_err(|found| told(&found))?;
-    Prepared::of_step(&job).map_err(|failure| match failure {
+    PreparedMaterial::of_step(&job).map_err(|failure| match failure {
         Failure::Program(found) => told(&found),
         other => CommandError::Failed(other.to_string()),
     })

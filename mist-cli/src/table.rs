@@ -6,7 +6,7 @@ use mist_engine::{
     colour::ColourTable,
     material::{
         query::{self, ColourNames},
-        results::{self, Columns},
+        results::{self, ResultColumns},
         table,
     },
 };
@@ -143,8 +143,9 @@ impl TableArgs {
     fn coloured(&self, from: &Path) -> Result<ColourTable, CommandError> {
         let source = InputText::read(from)?;
         let (wavelength, value) = (self.wavelength.as_deref(), self.value.as_deref());
-        let columns = Columns::parse(wavelength.unwrap_or_default(), value.unwrap_or_default())
-            .map_err(refused)?;
+        let columns =
+            ResultColumns::parse(wavelength.unwrap_or_default(), value.unwrap_or_default())
+                .map_err(refused)?;
         let settings = self.colours().settings(Some(&DiskFiles::beside(from))).map_err(refused)?;
         let incident = query::stokes(&self.incident).map_err(refused)?;
         let frame = match self.basis.as_str() {

@@ -8,4 +8,4 @@ pub mod section;
 pub mod table;
 
 pub use section::ColourSection;
-pub use table::{Albedo, Axis, ColourRow, ColourTable, Layout, Patch, Symmetry};
+pub use table::{Albedo, ColourRow, ColourTable, RowOrder, RowPatch, Symmetry, TableAxis};

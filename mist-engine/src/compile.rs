@@ -479,7 +479,7 @@ impl Compiler<'_> {
             .find(|(slot, _)| self.names.name(*slot).eq_ignore_ascii_case("incidentpol"))
             .and_then(|(_, value)| value.as_slice().first_chunk().copied());
         let (names, mode) = (&mut self.names, self.options.mode);
-        let context = crate::colour::section::Context {
+        let context = crate::colour::section::ColourContext {
             names,
             mode,
             entries,

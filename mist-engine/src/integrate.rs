@@ -12,8 +12,8 @@ use scattering::{Basis, Direction, Incidence, Model, Mueller, Stokes};
 use crate::{
     region::Region,
     sampling::{
-        Chunk, Layout, Scale, Scratch,
-        adaptive::{self, Demand},
+        DirectionChunk, Layout, Scale, Scratch,
+        adaptive::{self, Accuracy},
     },
     sum,
 };
@@ -41,7 +41,7 @@ pub(crate) fn integrate_counting(
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<(Mueller, u64)> {
     let total = |scratch: &mut Scratch, k| {
-        let Chunk { directions, weights } = layout.chunk(k, scratch);
+        let DirectionChunk { directions, weights } = layout.chunk(k, scratch);
         Total {
             matrix: model.sum(incidence, directions, weights, basis),
             weight: weights.weight.iter().sum(),
@@ -96,7 +96,7 @@ pub fn samples(
     }
     let mut scratch = Scratch::default();
     for k in 0..layout.chunks() {
-        let Chunk { directions, weights } = layout.chunk(k, &mut scratch);
+        let DirectionChunk { directions, weights } = layout.chunk(k, &mut scratch);
         let mut matrices = vec![Mueller::ZERO; directions.len()];
         model.evaluate(incidence, directions, basis, &mut matrices);
         for (at, (m, d)) in matrices.iter().zip(directions).enumerate() {
@@ -113,7 +113,7 @@ pub(crate) fn adaptive_samples(
     model: &Model,
     incidence: &Incidence,
     basis: Basis,
-    (region, demand): (&Region, &Demand),
+    (region, accuracy): (&Region, &Accuracy),
     (pol, inpol): (&Stokes, &Stokes),
     visit: &mut dyn FnMut(Sample),
 ) {
@@ -122,7 +122,7 @@ pub(crate) fn adaptive_samples(
         visit(Sample { theta: v.z.acos(), phi: v.y.atan2(v.x), brdf });
     };
     // Without a value the run has ended before it comes to samples.
-    let _ = adaptive::nodes(model, incidence, basis, region, demand, show);
+    let _ = adaptive::nodes(model, incidence, basis, region, accuracy, show);
 }
 
 /// The sensitivity `s` turned by β: S(β).

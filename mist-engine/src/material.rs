@@ -1,6 +1,6 @@
 //! Materials outside of programs: a model with parameters and data files, ready to be asked.
 //!
-//! A [`Material`] is what a user writes as JSON, a [`Prepared`] material what is evaluated: by
+//! A [`Material`] is the JSON that a user writes, a [`PreparedMaterial`] is evaluated: by
 //! [`eval`] for single geometries, by [`lobes`] for the directions of a renderer, by [`table`] for
 //! its colour tables.
 
@@ -128,12 +128,12 @@ impl MaterialError {
 }
 
 /// The files of a material, then those around it.
-struct Shelf {
+struct LayeredFiles {
     own: MemoryFiles,
     more: Option<Arc<dyn Files + Send + Sync>>,
 }
 
-impl Files for Shelf {
+impl Files for LayeredFiles {
     fn read(&self, name: &str) -> Result<Arc<str>, FileError> {
         match (&self.more, self.own.read(name)) {
             (Some(more), Err(_)) => more.read(name),
@@ -166,15 +166,15 @@ impl Material {
         &self,
         mode: Mode,
         more_files: Option<Arc<dyn Files + Send + Sync>>,
-    ) -> Result<Prepared, MaterialError> {
+    ) -> Result<PreparedMaterial, MaterialError> {
         let own = self.files.iter().map(|(name, text)| (name.clone(), text.as_str().into()));
-        let shelf = Shelf { own: MemoryFiles(own.collect()), more: more_files };
+        let shelf = LayeredFiles { own: MemoryFiles(own.collect()), more: more_files };
         let library = DataFiles::new(Arc::new(shelf), dialect(mode));
         let mut parameters = ModelParameters::new(class(&self.model)?);
         for (path, value) in &self.parameters {
             parameters.set(path, value, &library, mode, None)?;
         }
-        Ok(Prepared { parameters, mode })
+        Ok(PreparedMaterial { parameters, mode })
     }
 }
 
@@ -188,12 +188,12 @@ fn class(name: &str) -> Result<&'static scattering::Class, MaterialError> {
 
 /// A material with its parameters set and its files read.
 #[derive(Clone, Debug)]
-pub struct Prepared {
+pub struct PreparedMaterial {
     parameters: ModelParameters,
     mode: Mode,
 }
 
-impl Prepared {
+impl PreparedMaterial {
     /// The material of the first step of a program.
     ///
     /// # Errors

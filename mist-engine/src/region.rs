@@ -13,8 +13,8 @@ mod caps;
 mod outline;
 mod polygon;
 
-pub(crate) use outline::{Frame, above_horizon, outline, refuse_crossing};
-pub(crate) use polygon::{Cell, Cells, Polygon};
+pub(crate) use outline::{AxisRotation, above_horizon, outline, refuse_crossing};
+pub(crate) use polygon::{CellContent, Polygon, PolygonCells};
 
 use caps::Cap;
 
@@ -116,7 +116,7 @@ pub(crate) fn unit((theta, phi): Angles) -> DVec3 {
 
 /// The circular cone that is sampled to cover a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Cone {
+pub(crate) struct BoundingCone {
     /// Its axis.
     pub(crate) axis: Angles,
     /// Its solid angle, sr.
@@ -170,13 +170,14 @@ impl Region {
     }
 
     /// The cone around the region.
-    pub(crate) fn cone(&self) -> Cone {
+    pub(crate) fn cone(&self) -> BoundingCone {
         use std::f64::consts::PI;
-        let around = |axis, alpha: f64| Cone { axis, solid_angle: 2.0 * PI * (1.0 - alpha.cos()) };
+        let around =
+            |axis, alpha: f64| BoundingCone { axis, solid_angle: 2.0 * PI * (1.0 - alpha.cos()) };
         match self {
-            Self::Differential { center } => Cone { axis: *center, solid_angle: 0.0 },
+            Self::Differential { center } => BoundingCone { axis: *center, solid_angle: 0.0 },
             Self::Circle { center, alpha } => around(*center, *alpha),
-            Self::Hemi => Cone { axis: (0.0, 0.0), solid_angle: 2.0 * PI },
+            Self::Hemi => BoundingCone { axis: (0.0, 0.0), solid_angle: 2.0 * PI },
             Self::Annulus { outer_center, outer_alpha, inner_alpha, .. } => {
                 around(*outer_center, outer_alpha.max(*inner_alpha))
             }
@@ -203,16 +204,16 @@ impl Region {
 }
 
 /// The cone around a polygon: its axis is the middle of the projected extent, raised by 1.
-fn cone_of_polygon(vertices: &[Angles]) -> Cone {
+fn cone_of_polygon(vertices: &[Angles]) -> BoundingCone {
     let corners: Vec<DVec3> = vertices.iter().map(|v| unit(*v)).collect();
     let Some(first) = corners.first() else {
-        return Cone { axis: (0.0, 0.0), solid_angle: 0.0 };
+        return BoundingCone { axis: (0.0, 0.0), solid_angle: 0.0 };
     };
     let low = corners.iter().fold(*first, |a, b| a.min(*b));
     let high = corners.iter().fold(*first, |a, b| a.max(*b));
     let axis = DVec3::new(low.x + high.x, low.y + high.y, 2.0).normalize();
     let smallest = corners.iter().fold(1.0, |m: f64, v| m.min(axis.dot(*v)));
-    Cone {
+    BoundingCone {
         axis: (axis.z.acos(), axis.y.atan2(axis.x)),
         solid_angle: 2.0 * std::f64::consts::PI * (1.0 - smallest),
     }

@@ -32,7 +32,7 @@ use crate::{
     parameters::ModelParameters,
     quirk::{Quirk, dialect},
     region::Apertures,
-    sampling::{Sampling, adaptive::Demand},
+    sampling::{Sampling, adaptive::Accuracy},
     scope::{Memo, SlotValues},
     step::{Listing, Step, StepIntegral},
     sweep::{EntryContent, LoopContext, Sweep},
@@ -327,7 +327,7 @@ impl<'j> Replay<'j> {
         let min_samples = self.required(required.minsamples)?;
         let rotation = self.required(required.rotation)?;
         let mode = self.required(required.integrationmode)? as i32;
-        let demand = (mode == ADAPTIVE).then(|| self.demand()).transpose()?;
+        let accuracy = (mode == ADAPTIVE).then(|| self.accuracy()).transpose()?;
         let polygon_sides = self.required(required.polygonsides)? as i32;
         let sampling = Sampling {
             differential,
@@ -341,7 +341,7 @@ impl<'j> Replay<'j> {
             },
             seed: job.options.seed,
         };
-        let integrals = self.all_integrals((&sampling, demand), incident)?;
+        let integrals = self.all_integrals((&sampling, accuracy), incident)?;
         let values = self.read_values();
         let sweep = self.sweep.as_ref();
         Ok(Step {
@@ -351,7 +351,7 @@ impl<'j> Replay<'j> {
             rotation,
             integrals,
             sampling,
-            demand,
+            accuracy,
             incident,
             columns: sweep.map(Sweep::cells).unwrap_or_default(),
             values,
@@ -367,7 +367,7 @@ impl<'j> Replay<'j> {
     /// The integrals of this step, unless they wait for each other.
     fn all_integrals(
         &mut self,
-        (sampling, demand): (&Sampling, Option<Demand>),
+        (sampling, accuracy): (&Sampling, Option<Accuracy>),
         incident: Stokes,
     ) -> Result<Arc<Vec<StepIntegral>>, Fault> {
         let job = self.job;
@@ -376,14 +376,14 @@ impl<'j> Replay<'j> {
         }
         if let Some(known) = &self.integrals
             && known.holds(&self.scope, &self.integrals_read)
-            && known.value.iter().all(|one| one.sampling == *sampling && one.demand == demand)
+            && known.value.iter().all(|one| one.sampling == *sampling && one.accuracy == accuracy)
             && self.incident_before == Some(incident)
         {
             return Ok(known.value.clone());
         }
         let mut integrals = Vec::with_capacity(job.integrals.len());
         for number in 0..job.integrals.len() {
-            integrals.push(self.integral(number, (sampling.clone(), demand), incident)?);
+            integrals.push(self.integral(number, (sampling.clone(), accuracy), incident)?);
         }
         let value = Arc::new(integrals);
         self.incident_before = Some(incident);
@@ -409,7 +409,7 @@ impl<'j> Replay<'j> {
     pub(crate) fn add_integral(&mut self, step: &mut Step) -> Result<(), Fault> {
         let number = step.integrals.len();
         let integral =
-            self.integral(number, (step.sampling.clone(), step.demand), step.incident)?;
+            self.integral(number, (step.sampling.clone(), step.accuracy), step.incident)?;
         Arc::make_mut(&mut step.integrals).push(integral);
         Ok(())
     }
@@ -422,7 +422,7 @@ impl<'j> Replay<'j> {
     }
 
     /// What an adaptive integral must reach, by `tolerance` and `maxevaluations`.
-    fn demand(&self) -> Result<Demand, Fault> {
+    fn accuracy(&self) -> Result<Accuracy, Fault> {
         let required = &self.job.required;
         let number = |slot, default| self.scope.get(slot).map_or(default, Value::number);
         let tolerance = number(required.tolerance, TOLERANCE);
@@ -438,7 +438,7 @@ impl<'j> Replay<'j> {
             let help = "it is for one Mueller integral, which is held in memory";
             return Err(self.about("maxevaluations", message, help));
         }
-        Ok(Demand { tolerance, budget: budget as u64 })
+        Ok(Accuracy { tolerance, budget: budget as u64 })
     }
 
     /// A fault of the variable `name`.
@@ -471,7 +471,7 @@ impl<'j> Replay<'j> {
     fn integral(
         &mut self,
         number: usize,
-        (sampling, demand): (Sampling, Option<Demand>),
+        (sampling, accuracy): (Sampling, Option<Accuracy>),
         incident: Stokes,
     ) -> Result<StepIntegral, Fault> {
         let plan = &self.job.integrals[number];
@@ -494,7 +494,7 @@ impl<'j> Replay<'j> {
             let known = self.settings[number][at].as_ref().expect("known by now");
             aperture.set(setting.key, &known.value, &setting.text)?;
         }
-        Ok(aperture.integral(plan, sampling, demand))
+        Ok(aperture.integral(plan, sampling, accuracy))
     }
 }
 

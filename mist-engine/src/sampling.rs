@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use scattering::{Direction, geometry::is_above};
 
-use crate::region::{Apertures, Frame, Polygon, Region, RegionError};
+use crate::region::{Apertures, AxisRotation, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
 
 pub mod adaptive;
@@ -24,16 +24,16 @@ mod lifting;
 mod pattern;
 mod points;
 mod projection;
-pub(crate) mod turn;
+pub(crate) mod sensitivity_rotation;
 
-pub(crate) use chunk::{Chunk, Scratch};
+pub(crate) use chunk::{DirectionChunk, Scratch};
 pub use key::LayoutKey;
 
 use chunk::seen_group;
-use lifting::{Asked, Known};
-use pattern::Pattern;
+use lifting::{PointClassifier, UndecidedPoint};
+use pattern::PointPattern;
 use projection::Projection;
-use turn::Turn;
+use sensitivity_rotation::SensitivityRotation;
 
 /// What a program says about the sampling of its integrals.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,7 @@ const STORED: u64 = 1 << 18;
 #[derive(Clone, Debug)]
 pub struct Layout {
     plan: Plan,
-    stored: OnceLock<Vec<Chunk>>,
+    stored: OnceLock<Vec<DirectionChunk>>,
 }
 
 /// How a weighted sum becomes an integral.
@@ -76,18 +76,18 @@ pub(crate) enum Scale {
 
 #[derive(Clone, Debug)]
 struct Plan {
-    pattern: Pattern,
+    pattern: PointPattern,
     projection: Projection,
-    frame: Frame,
-    inside: Inside,
-    turn: Turn,
+    frame: AxisRotation,
+    inside: Membership,
+    turn: SensitivityRotation,
     scale: Scale,
     apertures: Apertures,
 }
 
 /// What a direction of the cone must meet to belong to the region.
 #[derive(Clone, Debug)]
-enum Inside {
+enum Membership {
     /// Nothing: the region is the cone.
     Cone,
     /// To be inside of a polygon.
@@ -153,7 +153,7 @@ impl Layout {
     }
 
     /// Chunk `k`, made in `scratch` if it is not stored.
-    pub(crate) fn chunk<'a>(&'a self, k: usize, scratch: &'a mut Scratch) -> &'a Chunk {
+    pub(crate) fn chunk<'a>(&'a self, k: usize, scratch: &'a mut Scratch) -> &'a DirectionChunk {
         match self.stored.get() {
             Some(chunks) => &chunks[k],
             None => {
@@ -169,7 +169,7 @@ impl Layout {
 
     /// Whether the region is one direction.
     pub(crate) fn is_single_direction(&self) -> bool {
-        matches!(self.plan.inside, Inside::One(_))
+        matches!(self.plan.inside, Membership::One(_))
     }
 
     /// How many directions it has; for a layout that is not stored, at most so many.
@@ -195,7 +195,7 @@ impl Plan {
         }
         let projection =
             Projection::of_mode(sampling.mode).ok_or(RegionError::Mode(sampling.mode))?;
-        let turn = Turn::towards(region.polarization_center());
+        let turn = SensitivityRotation::towards(region.polarization_center());
         let (region, apertures) = match sampling.apertures {
             Apertures::Exact => (&region.ordered(), sampling.apertures),
             Apertures::Nist => (region, sampling.apertures),
@@ -203,32 +203,34 @@ impl Plan {
         let (inside, projected) = match apertures {
             Apertures::Nist => {
                 let outline = outline(region, sampling.polygon_sides)?;
-                (Inside::Polygon(outline.polygon), outline.projected_solid_angle)
+                (Membership::Polygon(outline.polygon), outline.projected_solid_angle)
             }
             Apertures::Exact => (exact(region, sampling)?, region.projected_solid_angle()),
         };
         let (step, radius) = grid(region, sampling, projection);
-        let pattern = Pattern::new(sampling, step, radius);
+        let pattern = PointPattern::new(sampling, step, radius);
         let scale = if sampling.mode / 10 == 0 {
             Scale::Normalized(projected)
         } else {
             Scale::Fixed(projection.area_per_area() * pattern.area_per_point())
         };
         let inside = match inside {
-            Inside::Polygon(polygon) => Inside::Polygon(polygon.for_points(pattern.points())),
+            Membership::Polygon(polygon) => {
+                Membership::Polygon(polygon.for_points(pattern.points()))
+            }
             other => other,
         };
-        let frame = Frame::new(region.cone().axis);
+        let frame = AxisRotation::new(region.cone().axis);
         Ok(Self { pattern, projection, frame, inside, turn, scale, apertures })
     }
 
     fn single(direction: Direction) -> Self {
         Self {
-            pattern: Pattern::One,
+            pattern: PointPattern::One,
             projection: Projection::EqualArea,
-            frame: Frame::new((0.0, 0.0)),
-            inside: Inside::One(direction),
-            turn: Turn::towards((0.0, 0.0)),
+            frame: AxisRotation::new((0.0, 0.0)),
+            inside: Membership::One(direction),
+            turn: SensitivityRotation::towards((0.0, 0.0)),
             scale: Scale::Fixed(1.0),
             apertures: Apertures::Exact,
         }
@@ -238,7 +240,7 @@ impl Plan {
         self.pattern.points()
     }
 
-    fn all_chunks(&self) -> Vec<Chunk> {
+    fn all_chunks(&self) -> Vec<DirectionChunk> {
         let count = self.points().div_ceil(CHUNK);
         let made = |scratch: &mut Scratch, k| {
             self.make_chunk(k, scratch);
@@ -252,18 +254,21 @@ impl Plan {
 
     /// Makes chunk `k` in `scratch`.
     fn make_chunk(&self, k: u64, Scratch { points, lifted, chunk }: &mut Scratch) {
-        if let Inside::One(direction) = self.inside {
+        if let Membership::One(direction) = self.inside {
             chunk.fill_with_one(direction.is_above().then_some(direction));
             return;
         }
         self.pattern.part(k * CHUNK..self.points().min((k + 1) * CHUNK), points);
-        let known = Known::new(self.projection, &self.frame, &self.inside);
+        let known = PointClassifier::new(self.projection, &self.frame, &self.inside);
         lifted.fill(points, &known, |point| self.kept(point));
         chunk.fill(lifted, &self.turn);
     }
 
     /// The direction of `point` and its weight times cos θ, if it belongs to the region.
-    fn kept(&self, Asked { plane, mut v, mut weight }: Asked) -> Option<(DVec3, f64)> {
+    fn kept(
+        &self,
+        UndecidedPoint { plane, mut v, mut weight }: UndecidedPoint,
+    ) -> Option<(DVec3, f64)> {
         if !(self.projection.clearance(plane.to_array(), v.z) >= 0.0) {
             let u;
             (u, weight) = self.projection.lift_by_angles(plane);
@@ -275,10 +280,10 @@ impl Plan {
         };
         let belongs = is_above
             && match &self.inside {
-                Inside::Cone => true,
-                Inside::Polygon(polygon) => polygon.contains(projected(v)),
-                Inside::Outside { axis, cos } => axis.dot(v) <= *cos,
-                Inside::One(_) => false,
+                Membership::Cone => true,
+                Membership::Polygon(polygon) => polygon.contains(projected(v)),
+                Membership::Outside { axis, cos } => axis.dot(v) <= *cos,
+                Membership::One(_) => false,
             };
         belongs.then_some((v, weight * v.z))
     }
@@ -299,26 +304,26 @@ fn projected(v: DVec3) -> DVec2 {
 const AXIS: f64 = 1e-12;
 
 /// The test that makes a grid on the cone of `region` a grid on the region itself.
-fn exact(region: &Region, sampling: &Sampling) -> Result<Inside, RegionError> {
+fn exact(region: &Region, sampling: &Sampling) -> Result<Membership, RegionError> {
     match region {
         Region::Polygon { vertices, .. } => {
             above_horizon(vertices)?;
             let corners = vertices.iter().map(|v| crate::region::unit(*v).truncate());
             let polygon = Polygon::new(corners.collect());
             refuse_crossing(polygon.crossing(true))?;
-            Ok(Inside::Polygon(polygon))
+            Ok(Membership::Polygon(polygon))
         }
         Region::Circle { alpha, .. } => {
             reachable(*alpha, sampling.mode)?;
-            Ok(Inside::Cone)
+            Ok(Membership::Cone)
         }
         Region::Annulus { outer_alpha, inner_center, inner_alpha, .. } => {
             reachable(*outer_alpha, sampling.mode)?;
             let axis = crate::region::unit(*inner_center);
-            Ok(Inside::Outside { axis, cos: inner_alpha.cos() })
+            Ok(Membership::Outside { axis, cos: inner_alpha.cos() })
         }
-        Region::Hemi => Ok(Inside::Cone),
-        Region::Differential { center } => Ok(Inside::One(Direction::new(center.0, center.1))),
+        Region::Hemi => Ok(Membership::Cone),
+        Region::Differential { center } => Ok(Membership::One(Direction::new(center.0, center.1))),
     }
 }
 

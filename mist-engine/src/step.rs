@@ -13,7 +13,7 @@ use smol_str::SmolStr;
 use crate::{
     parameters::ModelParameters,
     region::Region,
-    sampling::{LayoutKey, Sampling, adaptive::Demand},
+    sampling::{LayoutKey, Sampling, adaptive::Accuracy},
 };
 
 /// One combination of loop values, ready to be evaluated.
@@ -31,7 +31,7 @@ pub struct Step {
     /// How its integrals are sampled.
     pub(crate) sampling: Sampling,
     /// How accurate its integrals must be, if they are adaptive.
-    pub(crate) demand: Option<Demand>,
+    pub(crate) accuracy: Option<Accuracy>,
     /// The incident light of integrals without INPOL.
     pub(crate) incident: Stokes,
     /// What the columns of the loops show.
@@ -55,7 +55,7 @@ pub struct StepIntegral {
     /// How it is sampled.
     pub sampling: Sampling,
     /// How accurate it must be, if it is adaptive; then it is not sampled.
-    pub demand: Option<Demand>,
+    pub accuracy: Option<Accuracy>,
     /// Sensitivity of the detector.
     pub pol: Stokes,
     /// Incident light.
@@ -65,8 +65,8 @@ pub struct StepIntegral {
 impl StepIntegral {
     /// What tells its directions from those of other integrals.
     pub(crate) fn layout_key(&self) -> LayoutKey {
-        match &self.demand {
-            Some(demand) => LayoutKey::adaptive(&self.region, demand),
+        match &self.accuracy {
+            Some(accuracy) => LayoutKey::adaptive(&self.region, accuracy),
             None => LayoutKey::new(&self.region, &self.sampling),
         }
     }

@@ -5,7 +5,7 @@ use mist_engine::{
     material::{
         MaterialError,
         query::{self, ColourNames},
-        table::{GridRequest, TableRequest, What, default_sampling},
+        table::{GridRequest, TableDirections, TableRequest, default_sampling},
     },
 };
 
@@ -63,7 +63,7 @@ impl TableQuery {
         };
         Ok(TableRequest {
             material: name.to_owned(),
-            what: What::List(Vec::new()),
+            what: TableDirections::List(Vec::new()),
             wavelengths: query::nodes("lambda", &text(&self.lambda, "360:5:830"))?,
             settings: self.colours.settings(files)?,
             incident: query::stokes(&text(&self.incident, "1,0,0,0"))?,
@@ -74,12 +74,12 @@ impl TableQuery {
         })
     }
 
-    fn what(&self) -> Result<What, MaterialError> {
+    fn what(&self) -> Result<TableDirections, MaterialError> {
         if let Some(rows) = &self.patches {
-            return Ok(What::List(query::patches(rows)?));
+            return Ok(TableDirections::List(query::patches(rows)?));
         }
         let patch = query::grid_patch(self.patch.as_deref().unwrap_or("point"))?;
         let grid: GridRequest = query::grid(self.grid.as_deref().unwrap_or(""), patch)?;
-        Ok(What::Grid(grid))
+        Ok(TableDirections::Grid(grid))
     }
 }

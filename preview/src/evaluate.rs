@@ -1,6 +1,6 @@
 //! Light paths to colours: models at every wavelength, spectra of pixels, XYZ.
 
-use mist_engine::material::{MaterialError, Prepared};
+use mist_engine::material::{MaterialError, PreparedMaterial};
 use rayon::prelude::*;
 use scattering::{Basis, Model, Side, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Xyz};
@@ -24,7 +24,7 @@ pub(crate) fn plan(
 ///
 /// If a model cannot be built, or is not of type 0 (reflection from outside).
 pub(crate) fn models(
-    material: &Prepared,
+    material: &PreparedMaterial,
     wavelengths: &[f64],
 ) -> Result<Vec<Model>, MaterialError> {
     let models = wavelengths

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::DVec3;
 use mist_engine::{
     Control,
-    material::{MaterialError, Prepared},
+    material::{MaterialError, PreparedMaterial},
 };
 use rayon::prelude::*;
 use scattering::{Model, Stokes};
@@ -26,7 +26,7 @@ use crate::{
 /// For values that the model cannot take, models that are not of type 0, wavelengths and colours
 /// that do not fit, values that are not finite, and on cancellation.
 pub fn render(
-    material: &Prepared,
+    material: &PreparedMaterial,
     scene: &Scene,
     wavelengths: &[f64],
     settings: ColourSettings,

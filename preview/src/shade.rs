@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use mist_engine::{
     Control,
-    material::{MaterialError, Prepared},
+    material::{MaterialError, PreparedMaterial},
 };
 use rayon::prelude::*;
 use scattering::Stokes;
@@ -26,7 +26,7 @@ use crate::{
 ///
 /// As [`render`](crate::render).
 pub fn shade(
-    material: &Prepared,
+    material: &PreparedMaterial,
     [width, height]: [usize; 2],
     points: impl Fn(usize) -> Vec<SurfacePoint> + Sync,
     lamps: &DistantLamps<'_>,

@@ -6,7 +6,7 @@ use exr::prelude::{ReadChannels as _, ReadLayers as _};
 use glam::DVec3;
 use mist_engine::{
     Control,
-    material::{Material, Prepared, query::ColourNames},
+    material::{Material, PreparedMaterial, query::ColourNames},
 };
 use pictures::image::{Encoding, Image};
 use preview::{
@@ -17,11 +17,11 @@ use spectra::ColourSettings;
 
 const WAVELENGTHS: [f64; 7] = [400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0];
 
-fn material(json: &str) -> Prepared {
+fn material(json: &str) -> PreparedMaterial {
     Material::from_json(json).unwrap().prepare(Mode::Sound, None).unwrap()
 }
 
-fn white() -> Prepared {
+fn white() -> PreparedMaterial {
     material(r#"{"model":"Lambertian_BRDF_Model","parameters":{"reflectance.table":1}}"#)
 }
 
@@ -45,7 +45,7 @@ fn scene(shape: Shape, lamps: Vec<Lamp>) -> Scene {
     }
 }
 
-fn film(material: &Prepared, scene: &Scene) -> Film {
+fn film(material: &PreparedMaterial, scene: &Scene) -> Film {
     render(material, scene, &WAVELENGTHS, settings(), &Control::default()).unwrap()
 }
 

@@ -9,7 +9,7 @@ mod rings;
 
 use std::{io::Write, path::Path};
 
-use mist_engine::{Control, colour::ColourTable, material::Prepared};
+use mist_engine::{Control, colour::ColourTable, material::PreparedMaterial};
 use mist_format::program::ColourKey;
 
 pub use export::ExportRequest;
@@ -60,7 +60,7 @@ pub struct ColourWriter {
 pub struct MaterialWriter {
     /// Fields of the request that the format has, besides those that all have.
     pub options: &'static [&'static str],
-    write: fn(&Prepared, &ExportRequest, &mut dyn Write, &Control) -> Result<String, ExportError>,
+    write: fn(&PreparedMaterial, &ExportRequest, &mut dyn Write, &Control) -> Result<String, ExportError>,
 }
 
 impl MaterialWriter {
@@ -73,7 +73,7 @@ impl MaterialWriter {
     /// cancellation, and an `out` that does not take the data.
     pub fn write(
         &self,
-        material: &Prepared,
+        material: &PreparedMaterial,
         request: &ExportRequest,
         out: &mut dyn Write,
         control: &Control,

@@ -10,7 +10,7 @@ use std::{
 use glam::DVec3;
 use mist_engine::{
     Control, Files, MemoryFiles,
-    material::{Material, Prepared, query::ColourNames},
+    material::{Material, PreparedMaterial, query::ColourNames},
 };
 use pictures::image::{Encoding, Image};
 use preview::{Film, Lamp, LampBasis, Scene, Shape, Sky};
@@ -63,7 +63,7 @@ fn film(text: &str, finer: usize, light: [f64; 4]) -> Film {
     plan.film(image, &files(), &lit(light), &Control::default()).unwrap()
 }
 
-fn gold() -> Prepared {
+fn gold() -> PreparedMaterial {
     let json = r#"{"model": "Facet_BRDF_Model", "parameters": {"substrate": "(0.2,3.1)",
         "sdf": "Gaussian_Slope_Distribution_Function", "sdf.s": 0.4}}"#;
     Material::from_json(json).unwrap().prepare(Mode::Sound, None).unwrap()

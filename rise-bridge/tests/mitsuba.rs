@@ -8,7 +8,7 @@ use std::io::Cursor;
 use glam::DVec3;
 use mist_engine::{
     Control,
-    material::{Material, Prepared},
+    material::{Material, PreparedMaterial},
 };
 use rise_bridge::{
     export::Bands,
@@ -45,7 +45,7 @@ struct MitsubaAngles {
 }
 
 impl MitsubaCase {
-    fn material(&self) -> Prepared {
+    fn material(&self) -> PreparedMaterial {
         let json = serde_json::json!({ "model": self.model, "parameters": self.params });
         // NIST's own numbers: sound values of Diffuse_Subsurface_BRDF_Model differ by 2e-5.
         Material::from_json(&json.to_string()).unwrap().prepare(Mode::Compat, None).unwrap()

@@ -9,7 +9,7 @@ use mist_engine::{
     Control, Files, Limits, MemoryFiles,
     material::{
         Material,
-        table::{Patch, Place, TableRequest, What, default_sampling, mueller},
+        table::{Patch, PatchRow, TableDirections, TableRequest, default_sampling, mueller},
     },
     sampling::Sampling,
 };
@@ -46,16 +46,16 @@ fn tables_are_read_back_and_are_nists_integrals_over_rings() {
     // The first band has 450, 500 and 550 nm in the place of red, green and blue.
     let table = read(&made.files["gold_b00.RISEdataBSDF"]).unwrap();
     assert_eq!(table, made.tables["gold_b00.RISEdataBSDF"]);
-    let places: Vec<Place> = (0..NODES * NODES)
+    let places: Vec<PatchRow> = (0..NODES * NODES)
         .map(|k| {
             let (inner, outer) = ring(k % NODES, NODES);
             let thetai = (22.5 * (k / NODES) as f64).min(89.0);
-            Place { thetai, thetas: 0.0, phis: 0.0, patch: Patch::Ring(inner, outer) }
+            PatchRow { thetai, thetas: 0.0, phis: 0.0, patch: Patch::Ring(inner, outer) }
         })
         .collect();
     let request = TableRequest {
         material: String::new(),
-        what: What::List(places),
+        what: TableDirections::List(places),
         wavelengths: NM.to_vec(),
         settings: mist_engine::material::query::ColourNames::default().settings(None).unwrap(),
         incident: [1.0, 0.0, 0.0, 0.0],

@@ -2,7 +2,9 @@
 
 mod laws;
 
-use mist_engine::colour::{Albedo, Axis, ColourRow, ColourTable, Layout, Patch, Symmetry};
+use mist_engine::colour::{
+    Albedo, ColourRow, ColourTable, RowOrder, RowPatch, Symmetry, TableAxis,
+};
 use rise_bridge::{
     read::{self, ReadError},
     write::{self, Style, WriteError},
@@ -28,7 +30,7 @@ fn full() -> ColourTable {
             flags: (i % 8) as u8,
         }
     };
-    let axis = |name: &str, nodes: &[f64]| Axis { name: name.into(), nodes: nodes.to_vec() };
+    let axis = |name: &str, nodes: &[f64]| TableAxis { name: name.into(), nodes: nodes.to_vec() };
     ColourTable {
         material: "a b µ".into(),
         quantity: "brdf 1/sr".into(),
@@ -41,7 +43,7 @@ fn full() -> ColourTable {
         space: "Rec2020".into(),
         adaptation: "CAT16".into(),
         white: [1.1, 1.0, 1.0 / 3.0],
-        layout: Layout::Grid {
+        layout: RowOrder::Grid {
             axes: vec![
                 axis("thetai", &[30.0]),
                 axis("thetas", &[0.0, 45.0]),
@@ -49,7 +51,7 @@ fn full() -> ColourTable {
             ],
             symmetry: Symmetry::Mirror,
         },
-        patch: Patch::Cell,
+        patch: RowPatch::Cell,
         leading: vec!["thickness".into()],
         stokes: 4,
         rows: (0..6).map(row).collect(),
@@ -68,7 +70,7 @@ fn without_spectra(mut table: ColourTable) -> ColourTable {
 fn the_orange_paint_reads_and_writes_back_byte_for_byte() {
     let table = read::mtab(ORANGE).unwrap();
     assert_eq!(table.wavelengths.len(), 40);
-    assert_eq!(table.patch, Patch::Circle(2.0));
+    assert_eq!(table.patch, RowPatch::Circle(2.0));
     assert_eq!((table.stokes, table.rows.len()), (3, 4));
     assert_eq!(table.rows[2].flags, ColourRow::OUT_OF_GAMUT);
     assert_eq!(write::mtab(&table, Style::default()).unwrap(), ORANGE);

@@ -7,18 +7,18 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use mist_engine::{
     Control,
-    material::{Material, Prepared, query::ColourNames},
+    material::{Material, PreparedMaterial, query::ColourNames},
 };
 use preview::{Lamp, LampBasis, Scene, Shape, Sky, mesh::Mesh, render};
 use rise_bridge::mitsuba::{axes::HalfAngleAxes, pbsdf};
 use scattering::Mode;
 
-fn material(json: &str) -> Prepared {
+fn material(json: &str) -> PreparedMaterial {
     let material = Material::from_json(json).expect("the JSON above is a material");
     material.prepare(Mode::Sound, None).expect("it needs no files")
 }
 
-fn paint() -> Prepared {
+fn paint() -> PreparedMaterial {
     material(
         r#"{"model":"Shadowed_Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)",
         "sdf":"Gaussian_Slope_Distribution_Function","sdf.s":0.25,"shadow":"Smith_Shadow_Function"}}"#,

@@ -64,7 +64,7 @@ impl<'j> Apertures<'j> {
         self.steps += 1.0;
         for (at, (integral, seen)) in step.integrals.iter().zip(&mut self.seen).enumerate() {
             // Adaptive integrals are not laid out.
-            if integral.demand.is_some() {
+            if integral.accuracy.is_some() {
                 continue;
             }
             let estimate = Layout::estimate(&integral.region, &integral.sampling);

@@ -6,8 +6,8 @@ use mist_format::Diagnostic;
 use spectra::{ColourPlan, Extrapolation, Grid, Xyz, wavelength::nm_from_um};
 
 use super::{
-    ColourRow, ColourSection, ColourTable, Layout, Patch,
-    section::{Placed, Role},
+    ColourRow, ColourSection, ColourTable, RowOrder, RowPatch,
+    section::{LoopRole, PlacedExpression},
 };
 use crate::{fault::Fault, output::Outputs, step::Step};
 
@@ -43,7 +43,7 @@ impl<'a> Fold<'a> {
             .roles
             .iter()
             .zip(&step.counts)
-            .filter(|(role, _)| **role != Role::Folded)
+            .filter(|(role, _)| **role != LoopRole::Folded)
             .map(|(_, count)| *count)
             .collect();
         let nm = nm_from_um(self.number(&self.section.wavelength, outputs)?);
@@ -73,7 +73,7 @@ impl<'a> Fold<'a> {
         }
         let mut leading = Vec::new();
         for role in &self.section.roles {
-            if let Role::Leading(columns) = role {
+            if let LoopRole::Leading(columns) = role {
                 leading.extend(columns.iter().map(|(_, slot)| {
                     outputs.scope.get(*slot).map_or(f64::NAN, mist_format::expr::Value::number)
                 }));
@@ -82,7 +82,7 @@ impl<'a> Fold<'a> {
         Ok(Gathered { leading, direction, samples: Vec::new() })
     }
 
-    fn number(&self, placed: &Placed, outputs: &mut Outputs<'_>) -> Result<f64, Fault> {
+    fn number(&self, placed: &PlacedExpression, outputs: &mut Outputs<'_>) -> Result<f64, Fault> {
         let place = placed.text.as_ref().unwrap_or(&self.section.place);
         outputs.number_at(&placed.expr, place)
     }
@@ -115,8 +115,8 @@ impl<'a> Fold<'a> {
         };
         let settings = &section.settings;
         let leading = section.roles.iter().flat_map(|role| match role {
-            Role::Leading(columns) => columns.iter().map(|(name, _)| name.clone()).collect(),
-            Role::Folded | Role::Direction => Vec::new(),
+            LoopRole::Leading(columns) => columns.iter().map(|(name, _)| name.clone()).collect(),
+            LoopRole::Folded | LoopRole::Direction => Vec::new(),
         });
         Ok(ColourTable {
             material: section.material.clone(),
@@ -130,7 +130,7 @@ impl<'a> Fold<'a> {
             space: settings.space.name().to_owned(),
             adaptation: settings.adaptation.name().to_owned(),
             white: plan.white().map_or([0.0, 0.0, 0.0], |white| [white.x, white.y, white.z]),
-            layout: Layout::List,
+            layout: RowOrder::List,
             patch: patch(&section.patch),
             leading: leading.collect(),
             stokes,
@@ -158,15 +158,15 @@ pub(crate) fn interpolation(grid: &Grid, outside: Extrapolation) -> String {
     format!("{how} {ends}")
 }
 
-fn patch(text: &str) -> Patch {
+fn patch(text: &str) -> RowPatch {
     match text.split_whitespace().collect::<Vec<_>>()[..] {
-        ["point"] => Patch::Point,
-        ["cell"] => Patch::Cell,
-        ["ring"] => Patch::Ring,
+        ["point"] => RowPatch::Point,
+        ["cell"] => RowPatch::Cell,
+        ["ring"] => RowPatch::Ring,
         ["circle", alpha] if alpha.parse::<f64>().is_ok() => {
-            Patch::Circle(alpha.parse().unwrap_or_default())
+            RowPatch::Circle(alpha.parse().unwrap_or_default())
         }
-        _ => Patch::Other(text.to_owned()),
+        _ => RowPatch::Other(text.to_owned()),
     }
 }
 

@@ -25,12 +25,12 @@ use crate::{
 
 /// The section COLOR of a compiled program.
 pub struct ColourSection {
-    pub(crate) wavelength: Placed,
-    pub(crate) angles: [Option<Placed>; 4],
+    pub(crate) wavelength: PlacedExpression,
+    pub(crate) angles: [Option<PlacedExpression>; 4],
     /// Slots of the output labels of I, Q, U, V.
     pub(crate) spectrum: Vec<u32>,
     /// Per loop, the first declared first: what it does to the table.
-    pub(crate) roles: Vec<Role>,
+    pub(crate) roles: Vec<LoopRole>,
     pub(crate) settings: ColourSettings,
     pub(crate) incident: [f64; 4],
     pub(crate) frame: String,
@@ -41,14 +41,14 @@ pub struct ColourSection {
 }
 
 /// An expression with its place.
-pub(crate) struct Placed {
+pub(crate) struct PlacedExpression {
     pub(crate) text: Option<SourceText>,
     pub(crate) expr: Expr,
 }
 
 /// What a loop does to the table.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Role {
+pub(crate) enum LoopRole {
     /// Its steps are wavelengths of one spectrum.
     Folded,
     /// Its steps are directions.
@@ -58,7 +58,7 @@ pub(crate) enum Role {
 }
 
 /// What the section is compiled with.
-pub(crate) struct Context<'a> {
+pub(crate) struct ColourContext<'a> {
     pub(crate) names: &'a mut SlotNames,
     pub(crate) mode: Mode,
     pub(crate) entries: &'a [VariableEntry],
@@ -74,9 +74,9 @@ pub(crate) struct Context<'a> {
 impl ColourSection {
     pub(crate) fn compile(
         color: &ColourStatements,
-        context: Context<'_>,
+        context: ColourContext<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
-        Reader { color, context, faults: Vec::new() }.section()
+        SectionCompiler { color, context, faults: Vec::new() }.section()
     }
 
     /// The name of the file that `key` asks for: a table, spectra, JSON or a plot.
@@ -89,20 +89,20 @@ impl ColourSection {
         let placed = std::iter::once(&self.wavelength).chain(self.angles.iter().flatten());
         let expressions = placed.flat_map(|placed| placed.expr.slots().iter().copied());
         let leading = self.roles.iter().flat_map(|role| match role {
-            Role::Leading(columns) => columns.iter().map(|(_, slot)| *slot).collect(),
-            Role::Folded | Role::Direction => Vec::new(),
+            LoopRole::Leading(columns) => columns.iter().map(|(_, slot)| *slot).collect(),
+            LoopRole::Folded | LoopRole::Direction => Vec::new(),
         });
         expressions.chain(leading)
     }
 }
 
-struct Reader<'a> {
+struct SectionCompiler<'a> {
     color: &'a ColourStatements,
-    context: Context<'a>,
+    context: ColourContext<'a>,
     faults: Vec<Diagnostic>,
 }
 
-impl Reader<'_> {
+impl SectionCompiler<'_> {
     fn section(mut self) -> Result<ColourSection, Vec<Diagnostic>> {
         let wavelength = self.wavelength();
         let angles = [
@@ -141,11 +141,11 @@ impl Reader<'_> {
         self.faults.push(Diagnostic::error(code, text.span(), error.to_string()));
     }
 
-    fn expr(&mut self, text: &SourceText) -> Option<Placed> {
+    fn expr(&mut self, text: &SourceText) -> Option<PlacedExpression> {
         match Expr::compile(text.as_str(), dialect(self.context.mode)) {
             Ok(mut expr) => {
                 expr.bind(|name| self.context.names.slot(name));
-                Some(Placed { text: Some(text.clone()), expr })
+                Some(PlacedExpression { text: Some(text.clone()), expr })
             }
             Err(error) => {
                 self.faults.push(*placed(text, error.diagnostic()));
@@ -154,7 +154,7 @@ impl Reader<'_> {
         }
     }
 
-    fn wavelength(&mut self) -> Option<Placed> {
+    fn wavelength(&mut self) -> Option<PlacedExpression> {
         if let Some(text) = self.color.last(ColourKey::Wavelength) {
             return self.expr(text);
         }
@@ -167,7 +167,7 @@ impl Reader<'_> {
     }
 
     /// The expression of a column; by default the variable of its name, if there is one.
-    fn angle(&mut self, name: &str, key: ColourKey) -> Option<Placed> {
+    fn angle(&mut self, name: &str, key: ColourKey) -> Option<PlacedExpression> {
         if let Some(text) = self.color.last(key) {
             return self.expr(text);
         }
@@ -178,7 +178,7 @@ impl Reader<'_> {
         }
         let mut expr = Expr::compile(name, dialect(self.context.mode)).ok()?;
         expr.bind(|name| self.context.names.slot(name));
-        Some(Placed { text: None, expr })
+        Some(PlacedExpression { text: None, expr })
     }
 
     fn spectrum(&mut self) -> Vec<u32> {
@@ -277,7 +277,11 @@ impl Reader<'_> {
     }
 
     /// What every loop does to the table, told by what depends on it.
-    fn roles(&self, wavelength: &Placed, angles: &[Option<Placed>; 4]) -> Vec<Role> {
+    fn roles(
+        &self,
+        wavelength: &PlacedExpression,
+        angles: &[Option<PlacedExpression>; 4],
+    ) -> Vec<LoopRole> {
         let spectral = self.depends_on(wavelength.expr.slots());
         let directional: BTreeSet<usize> = angles
             .iter()
@@ -287,15 +291,15 @@ impl Reader<'_> {
         let role = |each: &LoopPlan| {
             let entries = each.entries();
             if entries.iter().any(|entry| spectral.contains(entry)) {
-                Role::Folded
+                LoopRole::Folded
             } else if entries.iter().any(|entry| directional.contains(entry)) {
-                Role::Direction
+                LoopRole::Direction
             } else {
                 let named = entries.iter().zip(each.titles());
                 let columns = named.filter_map(|(entry, title)| {
                     Some((title.to_owned(), self.context.entries[*entry].slot?))
                 });
-                Role::Leading(columns.collect())
+                LoopRole::Leading(columns.collect())
             }
         };
         self.context.loops.iter().map(role).collect()

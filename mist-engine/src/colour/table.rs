@@ -30,9 +30,9 @@ pub struct ColourTable {
     /// XYZ of the perfect diffuser, Y = 1.
     pub white: [f64; 3],
     /// How the rows are ordered.
-    pub layout: Layout,
+    pub layout: RowOrder,
     /// What solid angle a row stands for.
-    pub patch: Patch,
+    pub patch: RowPatch,
     /// Names of columns before the angles: loops that are neither angles nor folded.
     pub leading: Vec<String>,
     /// Number of Stokes components given per row: 1, 3 (I, Q, U) or 4.
@@ -45,13 +45,13 @@ pub struct ColourTable {
 
 /// The order of the rows.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Layout {
+pub enum RowOrder {
     /// As they were asked for.
     List,
     /// Every node of a grid, the first axis slowest.
     Grid {
         /// The axes, slowest first.
-        axes: Vec<Axis>,
+        axes: Vec<TableAxis>,
         /// Which half of the azimuths is given.
         symmetry: Symmetry,
     },
@@ -59,7 +59,7 @@ pub enum Layout {
 
 /// One axis of a grid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct TableAxis {
     /// `thetai`, `thetas` or `phis`.
     pub name: String,
     /// Its nodes, degrees, ascending.
@@ -77,7 +77,7 @@ pub enum Symmetry {
 
 /// The solid angle of a row.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Patch {
+pub enum RowPatch {
     /// One direction.
     Point,
     /// A cone with this half-angle in degrees.

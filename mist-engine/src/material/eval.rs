@@ -11,7 +11,7 @@ use crate::Files;
 /// What is asked.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Request {
+pub struct EvaluationRequest {
     /// Name of the model's class.
     pub model: String,
     /// As in [`Material::parameters`].
@@ -21,7 +21,7 @@ pub struct Request {
     #[serde(default = "psps")]
     pub basis: String,
     /// Where the model is evaluated.
-    pub geometries: Vec<Angles>,
+    pub geometries: Vec<GeometryAngles>,
     /// As in [`Material::files`].
     #[serde(default)]
     pub files: BTreeMap<String, String>,
@@ -34,7 +34,7 @@ fn psps() -> String {
 /// One geometry, radians.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Angles {
+pub struct GeometryAngles {
     /// Polar angle of incidence.
     pub theta_i: f64,
     /// Polar angle of scattering.
@@ -48,9 +48,9 @@ pub struct Angles {
 
 /// The answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Response {
+pub struct EvaluationResponse {
     /// One Mueller matrix (1/sr) per geometry, row by row.
-    pub mueller: Vec<[Number; 16]>,
+    pub mueller: Vec<[JsonNumber; 16]>,
     /// Defects of NIST's library that a sound run stepped around: number and effect.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub defects: Vec<String>,
@@ -61,9 +61,9 @@ pub struct Response {
 
 /// A number that JSON shows as it is if it is finite, else as "nan", "inf" or "-inf".
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Number(pub f64);
+pub struct JsonNumber(pub f64);
 
-impl Serialize for Number {
+impl Serialize for JsonNumber {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.0 {
             x if x.is_finite() => serializer.serialize_f64(x),
@@ -79,13 +79,13 @@ impl Serialize for Number {
 /// # Errors
 ///
 /// For texts that are not a request, and as [`Material::prepare`] and
-/// [`Prepared::model`](super::Prepared::model).
+/// [`PreparedMaterial::model`](super::PreparedMaterial::model).
 pub fn eval(
     request: &str,
     mode: Mode,
     more_files: Option<Arc<dyn Files + Send + Sync>>,
-) -> Result<Response, MaterialError> {
-    let request: Request = serde_json::from_str(request)?;
+) -> Result<EvaluationResponse, MaterialError> {
+    let request: EvaluationRequest = serde_json::from_str(request)?;
     answer(request, mode, more_files)
 }
 
@@ -95,22 +95,22 @@ pub fn eval(
 ///
 /// As [`eval`].
 pub fn answer(
-    request: Request,
+    request: EvaluationRequest,
     mode: Mode,
     more_files: Option<Arc<dyn Files + Send + Sync>>,
-) -> Result<Response, MaterialError> {
-    let Request { model, parameters, basis, geometries, files } = request;
+) -> Result<EvaluationResponse, MaterialError> {
+    let EvaluationRequest { model, parameters, basis, geometries, files } = request;
     let basis = Basis::from_name(&basis).ok_or_else(|| {
         MaterialError::request("basis", format!("{basis:?} is none of psps, xyxy and plane"))
     })?;
     let material = Material { model, parameters, files };
     let (model, met) = material.prepare(mode, more_files)?.model()?;
-    let row = |m: Mueller| m.to_row_major().map(Number);
-    let at = |a: &Angles| {
-        let Angles { theta_i, theta_s, phi_s, rotation } = *a;
+    let row = |m: Mueller| m.to_row_major().map(JsonNumber);
+    let at = |a: &GeometryAngles| {
+        let GeometryAngles { theta_i, theta_s, phi_s, rotation } = *a;
         model.mueller(&Geometry { theta_i, theta_s, phi_s, rotation }, basis)
     };
-    Ok(Response {
+    Ok(EvaluationResponse {
         mueller: geometries.iter().map(|angles| row(at(angles))).collect(),
         defects: met.iter().filter_map(defect).collect(),
         limits: met.iter().filter_map(limit).collect(),
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn numbers_that_json_does_not_have_are_texts() {
-        let numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.5].map(Number);
+        let numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.5].map(JsonNumber);
         let json = serde_json::to_string(&numbers).unwrap();
         assert_eq!(json, r#"["nan","inf","-inf",0.5]"#);
     }

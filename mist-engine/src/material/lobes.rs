@@ -9,14 +9,14 @@ use glam::DVec3;
 use scattering::{Basis, DirectionPairs, Model, Mueller, Side, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid};
 
-use super::{MaterialError, Prepared, table::scale};
+use super::{MaterialError, PreparedMaterial, table::scale};
 
 /// Pairs that are evaluated at a time: their matrices stay in the cache.
 const BATCH: usize = 256;
 
 /// What is asked of every pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Out {
+pub enum LobeOutput {
     /// Linear RGB of the exit light.
     Rgb,
     /// The intensity of the exit light at every wavelength.
@@ -25,7 +25,7 @@ pub enum Out {
     Mueller,
 }
 
-impl Out {
+impl LobeOutput {
     /// `rgb`, `spectral` or `mueller`.
     ///
     /// # Errors
@@ -46,11 +46,11 @@ impl Out {
 
 /// Takes a Mueller matrix to the axes of a renderer: the matrix, the unit vectors to the source
 /// and to the viewer.
-pub type Turn = fn(Mueller, DVec3, DVec3) -> Mueller;
+pub type BasisChange = fn(Mueller, DVec3, DVec3) -> Mueller;
 
 /// How the pairs are looked at.
 #[derive(Clone, Debug)]
-pub struct View {
+pub struct LobeRequest {
     /// Wavelengths, nm, rising.
     pub wavelengths: Vec<f64>,
     /// How spectra become colours.
@@ -60,7 +60,7 @@ pub struct View {
     /// The basis of the matrices.
     pub basis: Basis,
     /// What is done to the matrices after that.
-    pub turn: Option<Turn>,
+    pub turn: Option<BasisChange>,
 }
 
 /// A material at the wavelengths of a view.
@@ -72,7 +72,7 @@ pub struct Lobes {
     scale: f64,
     light: Stokes,
     basis: Basis,
-    turn: Option<Turn>,
+    turn: Option<BasisChange>,
 }
 
 impl Lobes {
@@ -82,7 +82,7 @@ impl Lobes {
     ///
     /// For wavelengths that are none, settings that do not fit, and values that the model cannot
     /// take.
-    pub fn new(material: &Prepared, view: &View) -> Result<Self, MaterialError> {
+    pub fn new(material: &PreparedMaterial, view: &LobeRequest) -> Result<Self, MaterialError> {
         let weights = match view.wavelengths.len() {
             1 => Vec::new(),
             _ => weights(&view.wavelengths, &view.settings)?,
@@ -109,25 +109,25 @@ impl Lobes {
     /// # Errors
     ///
     /// For colours of one wavelength.
-    pub fn check(&self, out: Out) -> Result<(), MaterialError> {
-        if out == Out::Rgb && self.weights.is_empty() {
+    pub fn check(&self, out: LobeOutput) -> Result<(), MaterialError> {
+        if out == LobeOutput::Rgb && self.weights.is_empty() {
             return Err(MaterialError::request("lambda", "a colour needs two wavelengths or more"));
         }
         Ok(())
     }
 
     /// How many numbers a pair has in the answer.
-    pub fn width(&self, out: Out) -> usize {
+    pub fn width(&self, out: LobeOutput) -> usize {
         match out {
-            Out::Rgb => 3,
-            Out::Spectral => self.models.len(),
-            Out::Mueller => 16 * self.models.len(),
+            LobeOutput::Rgb => 3,
+            LobeOutput::Spectral => self.models.len(),
+            LobeOutput::Mueller => 16 * self.models.len(),
         }
     }
 
     /// The answers for `pairs` of vectors to the source and to the viewer, one after the other:
     /// 1/sr, without the cosine; zero below the horizon and for vectors without a direction.
-    pub fn evaluate(&self, pairs: &[(DVec3, DVec3)], out: Out) -> Vec<f32> {
+    pub fn evaluate(&self, pairs: &[(DVec3, DVec3)], out: LobeOutput) -> Vec<f32> {
         let width = self.width(out);
         let mut answers = vec![0.0; pairs.len() * width];
         for (pairs, answers) in pairs.chunks(BATCH).zip(answers.chunks_mut(BATCH * width)) {
@@ -136,7 +136,7 @@ impl Lobes {
         answers
     }
 
-    fn batch(&self, pairs: &[(DVec3, DVec3)], out: Out, answers: &mut [f32]) {
+    fn batch(&self, pairs: &[(DVec3, DVec3)], out: LobeOutput, answers: &mut [f32]) {
         // The side is no matter of the wavelength.
         let side = self.models.first().map_or(Side::DownUp, |model| model.common().side);
         let seen = DirectionPairs::new(side, pairs);
@@ -153,13 +153,13 @@ impl Lobes {
                     }
                 }
             }
-            if out == Out::Rgb {
+            if out == LobeOutput::Rgb {
                 self.add(&mut colours, &matrices, at);
                 continue;
             }
             for (m, place) in matrices.iter().zip(seen.places()) {
                 let numbers = &mut answers[place * width..(place + 1) * width];
-                if out == Out::Spectral {
+                if out == LobeOutput::Spectral {
                     numbers[at] = (self.scale * self.component(m, 0)) as f32;
                 } else {
                     let row = m.to_row_major().map(|x| x as f32);
@@ -167,7 +167,7 @@ impl Lobes {
                 }
             }
         }
-        if out == Out::Rgb {
+        if out == LobeOutput::Rgb {
             for (colour, place) in colours.iter().zip(seen.places()) {
                 answers[3 * place..3 * (place + 1)].copy_from_slice(&colour.map(|x| x as f32));
             }
@@ -227,7 +227,7 @@ mod tests {
         Control,
         material::{
             Material,
-            table::{Patch, Place, TableRequest, What, default_sampling, table},
+            table::{Patch, PatchRow, TableDirections, TableRequest, default_sampling, table},
         },
     };
 
@@ -243,7 +243,7 @@ mod tests {
         }
     }
 
-    fn glass() -> Prepared {
+    fn glass() -> PreparedMaterial {
         let json = r#"{"model":"Facet_BRDF_Model",
             "parameters":{"substrate":"(1.5,0)","sdf.s":0.3}}"#;
         Material::from_json(json).unwrap().prepare(Mode::Sound, None).unwrap()
@@ -259,10 +259,10 @@ mod tests {
         let wavelengths: Vec<f64> = (0..8).map(|k| 400.0 + 40.0 * f64::from(k)).collect();
         for filters in [vec![], vec![Filter::parse("linear(0.4)").unwrap()]] {
             let settings = settings(filters);
-            let place = |thetas, phis| Place { thetai: 50.0, thetas, phis, patch: Patch::Point };
+            let place = |thetas, phis| PatchRow { thetai: 50.0, thetas, phis, patch: Patch::Point };
             let request = TableRequest {
                 material: "glass".into(),
-                what: What::List(vec![place(50.0, 0.0), place(30.0, 75.0)]),
+                what: TableDirections::List(vec![place(50.0, 0.0), place(30.0, 75.0)]),
                 wavelengths: wavelengths.clone(),
                 settings: settings.clone(),
                 incident: [1.0, 0.3, 0.1, 0.0],
@@ -273,13 +273,18 @@ mod tests {
             };
             let table = table(&glass(), &request, &Control::default()).unwrap();
             let (incident, basis) = (request.incident, Basis::Psps);
-            let view =
-                View { wavelengths: wavelengths.clone(), settings, incident, basis, turn: None };
+            let view = LobeRequest {
+                wavelengths: wavelengths.clone(),
+                settings,
+                incident,
+                basis,
+                turn: None,
+            };
             let lobes = Lobes::new(&glass(), &view).unwrap();
             // Light comes from -x.
             let source = vector(50.0, 180.0);
             let pairs = [(source, vector(50.0, 0.0)), (source, vector(30.0, 75.0))];
-            let colours = lobes.evaluate(&pairs, Out::Rgb);
+            let colours = lobes.evaluate(&pairs, LobeOutput::Rgb);
             for (row, colour) in table.rows.iter().zip(colours.chunks(3)) {
                 for (expected, found) in row.rgb[0].iter().zip(colour) {
                     // The answer is rounded to f32.
@@ -287,15 +292,15 @@ mod tests {
                     assert!(close, "{expected} {found}");
                 }
             }
-            let spectra = lobes.evaluate(&pairs, Out::Spectral);
-            assert_eq!(spectra.len(), 2 * lobes.width(Out::Spectral));
+            let spectra = lobes.evaluate(&pairs, LobeOutput::Spectral);
+            assert_eq!(spectra.len(), 2 * lobes.width(LobeOutput::Spectral));
             assert!((f64::from(spectra[3]) - table.rows[0].spectra[0][3]).abs() < 1e-6);
         }
     }
 
     #[test]
     fn vectors_below_the_horizon_and_vectors_that_are_none_are_black() {
-        let view = View {
+        let view = LobeRequest {
             wavelengths: vec![550.0],
             settings: settings(vec![]),
             incident: [1.0, 0.0, 0.0, 0.0],
@@ -305,6 +310,6 @@ mod tests {
         let lobes = Lobes::new(&glass(), &view).unwrap();
         let up = DVec3::Z;
         let pairs = [(-up, up), (up, -up), (DVec3::ZERO, up), (up, DVec3::splat(f64::NAN))];
-        assert!(lobes.evaluate(&pairs, Out::Mueller).iter().all(|x| *x == 0.0));
+        assert!(lobes.evaluate(&pairs, LobeOutput::Mueller).iter().all(|x| *x == 0.0));
     }
 }

@@ -14,7 +14,7 @@ use scattering::{
 use super::table::Patch;
 use crate::{
     region::{Angles, Region, RegionError, unit},
-    sampling::{Layout, Sampling, Scale, Scratch, turn::Turn},
+    sampling::{Layout, Sampling, Scale, Scratch, sensitivity_rotation::SensitivityRotation},
 };
 
 /// Directions that are evaluated at a time.
@@ -37,7 +37,7 @@ pub(super) struct Probes {
 
 /// A cell in θ and φ, radians, with the centre of its polarization.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cell {
+pub(super) struct PolarCell {
     pub(super) theta: (f64, f64),
     pub(super) phi: (f64, f64),
     pub(super) center: Angles,
@@ -102,8 +102,8 @@ impl Probes {
     }
 
     /// Adds a cell of a grid; its polarization is carried along from its centre.
-    pub(super) fn add_cell(&mut self, cell: &Cell) {
-        let turn = Turn::towards(cell.center);
+    pub(super) fn add_cell(&mut self, cell: &PolarCell) {
+        let turn = SensitivityRotation::towards(cell.center);
         let nodes = |(a, b): (f64, f64)| {
             let n = ((b - a).to_degrees().ceil() as usize + 2).clamp(3, 24);
             gauss::legendre(n, a, b)

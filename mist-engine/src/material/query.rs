@@ -9,7 +9,7 @@ use spectra::{
 
 use super::{
     MaterialError,
-    table::{GridPatch, GridRequest, Patch, Place},
+    table::{GridPatch, GridRequest, Patch, PatchRow},
 };
 use crate::Files;
 
@@ -110,7 +110,7 @@ pub fn grid_patch(text: &str) -> Result<GridPatch, MaterialError> {
 /// # Errors
 ///
 /// Names the line and what was expected.
-pub fn patches(text: &str) -> Result<Vec<Place>, MaterialError> {
+pub fn patches(text: &str) -> Result<Vec<PatchRow>, MaterialError> {
     let mut places = Vec::new();
     for (at, line) in text.lines().enumerate() {
         let line = line.split([';', '#']).next().unwrap_or_default();
@@ -123,7 +123,7 @@ pub fn patches(text: &str) -> Result<Vec<Place>, MaterialError> {
     Ok(places)
 }
 
-fn place(part: &str, words: &[&str]) -> Result<Place, MaterialError> {
+fn place(part: &str, words: &[&str]) -> Result<PatchRow, MaterialError> {
     let wrong = || {
         let problem = "expected thetai thetas phis and point, circle ALPHA, ring INNER OUTER or \
                        polygon THETA PHI …";
@@ -144,7 +144,7 @@ fn place(part: &str, words: &[&str]) -> Result<Place, MaterialError> {
         [alpha] => Patch::Circle(number(part, alpha)?),
         _ => return Err(wrong()),
     };
-    Ok(Place { thetai: angles[0], thetas: angles[1], phis: angles[2], patch })
+    Ok(PatchRow { thetai: angles[0], thetas: angles[1], phis: angles[2], patch })
 }
 
 /// A Stokes vector, `1,0,0,0`.

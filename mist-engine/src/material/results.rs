@@ -7,13 +7,13 @@ use spectra::{ColourSettings, wavelength::nm_from_um};
 
 use super::{
     MaterialError,
-    table::{Colours, Head},
+    table::{Colours, TableHead},
 };
-use crate::colour::{ColourTable, Layout, Patch, fold::coloured};
+use crate::colour::{ColourTable, RowOrder, RowPatch, fold::coloured};
 
 /// Which columns of a results file make spectra.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Columns {
+pub struct ResultColumns {
     /// The column of the wavelength.
     pub wavelength: String,
     /// Whether it is in nm; else it is in µm.
@@ -22,7 +22,7 @@ pub struct Columns {
     pub values: Vec<String>,
 }
 
-impl Columns {
+impl ResultColumns {
     /// From `wl:nm` (or `wl:um`, the same as `wl`) and `f0,f1,f2,f3`.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ struct Gathered {
 /// unusable wavelengths.
 pub fn table(
     text: &str,
-    columns: &Columns,
+    columns: &ResultColumns,
     material: &str,
     settings: &ColourSettings,
     (incident, frame): ([f64; 4], &'static str),
@@ -88,7 +88,8 @@ pub fn table(
         keys.iter().copied().filter(|column| !angles.contains(&Some(*column))).collect();
     for (number, line) in text.lines().enumerate().skip(start).filter(|(_, l)| !l.trim().is_empty())
     {
-        let row = Row { number: number + 1, cells: line.split('\t').map(str::trim).collect() };
+        let row =
+            ResultRow { number: number + 1, cells: line.split('\t').map(str::trim).collect() };
         let key: Vec<&str> = keys.iter().map(|column| row.text(*column)).collect();
         let place = match places.get(&key) {
             Some(place) => *place,
@@ -134,9 +135,9 @@ pub fn table(
         .collect();
     let dark = rows.iter().all(|row| row.spectra[3].iter().all(|v| *v == 0.0));
     let stokes = if values.len() == 4 && dark { 3 } else { values.len() };
-    let (material, layout) = (material.to_owned(), Layout::List);
+    let (material, layout) = (material.to_owned(), RowOrder::List);
     Ok(colours.table(
-        Head { material, incident, frame, layout, patch, leading, stokes },
+        TableHead { material, incident, frame, layout, patch, leading, stokes },
         rows,
         Vec::new(),
     ))
@@ -148,23 +149,26 @@ fn constant_alpha(
     others: &[usize],
     leading: &mut Vec<String>,
     rows: &mut [Gathered],
-) -> Patch {
+) -> RowPatch {
     let place = alpha.and_then(|alpha| others.iter().position(|column| *column == alpha));
     let Some((place, first)) = place.zip(rows.first().map(|row| row.leading.clone())) else {
-        return Patch::Point;
+        return RowPatch::Point;
     };
     if rows.iter().any(|row| row.leading[place] != first[place]) {
-        return Patch::Other("circle".into());
+        return RowPatch::Other("circle".into());
     }
     leading.remove(place);
     rows.iter_mut().for_each(|row| {
         row.leading.remove(place);
     });
-    Patch::Circle(first[place])
+    RowPatch::Circle(first[place])
 }
 
 /// The names of the columns, and the number of the line behind them.
-fn names<'t>(text: &'t str, columns: &Columns) -> Result<(usize, Vec<&'t str>), MaterialError> {
+fn names<'t>(
+    text: &'t str,
+    columns: &ResultColumns,
+) -> Result<(usize, Vec<&'t str>), MaterialError> {
     let wanted = || std::iter::once(&columns.wavelength).chain(&columns.values);
     let mut best: Vec<&str> = Vec::new();
     for (number, line) in text.lines().enumerate() {
@@ -183,12 +187,12 @@ fn names<'t>(text: &'t str, columns: &Columns) -> Result<(usize, Vec<&'t str>), 
 }
 
 /// A line of the file.
-struct Row<'t> {
+struct ResultRow<'t> {
     number: usize,
     cells: Vec<&'t str>,
 }
 
-impl<'t> Row<'t> {
+impl<'t> ResultRow<'t> {
     fn text(&self, column: usize) -> &'t str {
         self.cells.get(column).copied().unwrap_or_default()
     }

@@ -14,27 +14,27 @@ use scattering::{Basis, Incidence, Model, Mueller, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Quantity};
 
 use super::{
-    MaterialError, Prepared,
-    patch::{Cell, Probes, azimuth_cells, polar_cells},
+    MaterialError, PreparedMaterial,
+    patch::{PolarCell, Probes, azimuth_cells, polar_cells},
 };
 use crate::{
     Control, Limits,
     colour::{
-        self, Albedo, Axis, ColourRow, ColourTable, Layout, Symmetry,
+        self, Albedo, ColourRow, ColourTable, RowOrder, Symmetry, TableAxis,
         fold::{coloured, interpolation},
     },
     integrate::integrate,
     region::{Apertures, Region},
     sampling::{
         self, Sampling,
-        adaptive::{self, Demand},
+        adaptive::{self, Accuracy},
     },
 };
 
 /// In the place of angles of 90° and more.
 const FILLED_FROM: f64 = 89.9;
 /// Relative error of a hemispherical reflectance.
-const ALBEDO: Demand = Demand { tolerance: 1e-6, budget: 400_000 };
+const ALBEDO: Accuracy = Accuracy { tolerance: 1e-6, budget: 400_000 };
 
 /// A table that is asked for.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ pub struct TableRequest {
     /// Name of the material, for the header.
     pub material: String,
     /// Where.
-    pub what: What,
+    pub what: TableDirections,
     /// Wavelengths, nm, rising.
     pub wavelengths: Vec<f64>,
     /// How spectra become colours; the quantity is `brdf` or `factor`.
@@ -61,14 +61,14 @@ pub struct TableRequest {
 
 /// The directions of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub enum What {
+pub enum TableDirections {
     /// Every combination of nodes.
     Grid(GridRequest),
     /// These, in this order.
-    List(Vec<Place>),
+    List(Vec<PatchRow>),
 }
 
-impl What {
+impl TableDirections {
     /// How many rows the table has.
     pub fn rows(&self) -> f64 {
         match self {
@@ -102,14 +102,14 @@ pub enum GridPatch {
     /// A cone with this half-angle, degrees.
     Circle(f64),
     /// The node's Voronoi cell.
-    Cell,
+    PolarCell,
     /// The average over all azimuths between the neighbours; `phis` has one node.
     Ring,
 }
 
 /// A row of a list, degrees.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct PatchRow {
     /// Polar angle of incidence.
     pub thetai: f64,
     /// Polar angle of scattering.
@@ -152,12 +152,12 @@ pub fn default_sampling() -> Sampling {
 /// For requests that cannot be served, values that the model cannot take, limits, a model that
 /// is not finite somewhere, and a wish to stop.
 pub fn table(
-    material: &Prepared,
+    material: &PreparedMaterial,
     request: &TableRequest,
     control: &Control,
 ) -> Result<ColourTable, MaterialError> {
     let colours = Colours::new(&request.wavelengths, &request.settings)?;
-    let work = Work::new(material, request)?;
+    let work = TableComputation::new(material, request)?;
     let components = if request.stokes || !request.settings.filters.is_empty() { 4 } else { 1 };
     let scale = scale(request.settings.quantity);
     let mut rows: Vec<Option<ColourRow>> = (0..work.rows).map(|_| None).collect();
@@ -185,7 +185,7 @@ pub fn table(
             dark &= row.spectra[3].iter().all(|v| *v == 0.0);
             rows[at.row] = Some(row);
         }
-        if matches!(request.what, What::Grid(_)) {
+        if matches!(request.what, TableDirections::Grid(_)) {
             albedo.push(work.albedo(group, &colours, control)?);
         }
         control.report((number + 1) as f64 / work.groups.len() as f64);
@@ -195,7 +195,7 @@ pub fn table(
         (true, true) => 3,
         (true, false) => 4,
     };
-    let head = Head {
+    let head = TableHead {
         material: request.material.clone(),
         incident: request.incident,
         frame: request.basis.name(),
@@ -231,15 +231,15 @@ pub struct MuellerRow {
 ///
 /// As [`table`].
 pub fn mueller(
-    material: &Prepared,
+    material: &PreparedMaterial,
     request: &TableRequest,
     control: &Control,
 ) -> Result<Vec<MuellerRow>, MaterialError> {
-    let work = Work::new(material, request)?;
+    let work = TableComputation::new(material, request)?;
     let mut rows: Vec<Option<MuellerRow>> = (0..work.rows).map(|_| None).collect();
     for (number, group) in work.groups.iter().enumerate() {
         let means = work.means(group, control)?;
-        for (k, At { row, angles, flags }) in group.rows.iter().enumerate() {
+        for (k, PatchTarget { row, angles, flags }) in group.rows.iter().enumerate() {
             let matrices: Vec<Mueller> = means.iter().map(|m| m[k]).collect();
             let finite = |m: &Mueller| m.to_row_major().iter().all(|x| x.is_finite());
             if let Some(at) = matrices.iter().position(|m| !finite(m)) {
@@ -266,12 +266,12 @@ pub(super) struct Colours {
 }
 
 /// What the header of a table says besides its colours.
-pub(super) struct Head {
+pub(super) struct TableHead {
     pub(super) material: String,
     pub(super) incident: [f64; 4],
     pub(super) frame: &'static str,
-    pub(super) layout: Layout,
-    pub(super) patch: colour::Patch,
+    pub(super) layout: RowOrder,
+    pub(super) patch: colour::RowPatch,
     pub(super) leading: Vec<String>,
     pub(super) stokes: usize,
 }
@@ -298,7 +298,7 @@ impl Colours {
 
     pub(super) fn table(
         &self,
-        head: Head,
+        head: TableHead,
         rows: Vec<ColourRow>,
         albedo: Vec<Albedo>,
     ) -> ColourTable {
@@ -326,7 +326,7 @@ impl Colours {
 }
 
 /// A row of the table, and where its patch is.
-struct At {
+struct PatchTarget {
     row: usize,
     /// thetai, thetas, phis as they were asked for, degrees.
     angles: [f64; 3],
@@ -334,19 +334,19 @@ struct At {
 }
 
 /// Rows with one angle of incidence.
-struct Group {
+struct IncidenceGroup {
     thetai: f64,
-    rows: Vec<At>,
+    rows: Vec<PatchTarget>,
     /// Which probes; the groups of a grid share theirs.
     probes: usize,
 }
 
 /// All that is to be evaluated.
-struct Work<'a> {
+struct TableComputation<'a> {
     request: &'a TableRequest,
     models: Vec<Model>,
     probes: Vec<Probes>,
-    groups: Vec<Group>,
+    groups: Vec<IncidenceGroup>,
     rows: usize,
 }
 
@@ -358,14 +358,14 @@ fn flags(thetai: f64, thetas: f64) -> u8 {
     if thetai >= 90.0 || thetas >= 90.0 { ColourRow::FILLED } else { 0 }
 }
 
-impl<'a> Work<'a> {
-    fn new(material: &Prepared, request: &'a TableRequest) -> Result<Self, MaterialError> {
+impl<'a> TableComputation<'a> {
+    fn new(material: &PreparedMaterial, request: &'a TableRequest) -> Result<Self, MaterialError> {
         check(request)?;
         let (probes, groups, rows) = match &request.what {
-            What::Grid(grid) => grid_work(grid, request)?,
-            What::List(list) => list_work(list, request)?,
+            TableDirections::Grid(grid) => grid_work(grid, request)?,
+            TableDirections::List(list) => list_work(list, request)?,
         };
-        let each = |group: &Group| probes[group.probes].directions() as f64;
+        let each = |group: &IncidenceGroup| probes[group.probes].directions() as f64;
         let cost = groups.iter().map(each).sum::<f64>() * request.wavelengths.len() as f64;
         if cost > request.limits.evaluations {
             let limit = request.limits.evaluations;
@@ -378,7 +378,11 @@ impl<'a> Work<'a> {
     }
 
     /// Per wavelength the means of the rows of `group`.
-    fn means(&self, group: &Group, control: &Control) -> Result<Vec<Vec<Mueller>>, MaterialError> {
+    fn means(
+        &self,
+        group: &IncidenceGroup,
+        control: &Control,
+    ) -> Result<Vec<Vec<Mueller>>, MaterialError> {
         let probes = &self.probes[group.probes];
         let incidence = Incidence::new(group.thetai.to_radians(), 0.0);
         let pieces = probes.pieces();
@@ -397,7 +401,7 @@ impl<'a> Work<'a> {
 
     fn albedo(
         &self,
-        group: &Group,
+        group: &IncidenceGroup,
         colours: &Colours,
         control: &Control,
     ) -> Result<Albedo, MaterialError> {
@@ -426,15 +430,15 @@ impl<'a> Work<'a> {
     }
 }
 
-impl Group {
+impl IncidenceGroup {
     fn row(
         &self,
         k: usize,
-        work: &Work<'_>,
+        work: &TableComputation<'_>,
         plan: &ColourPlan,
         spectra: [Vec<f64>; 4],
     ) -> ColourRow {
-        let At { angles: [thetai, thetas, phis], flags, .. } = self.rows[k];
+        let PatchTarget { angles: [thetai, thetas, phis], flags, .. } = self.rows[k];
         let omega = work.probes[self.probes].omegas[k];
         coloured(plan, Vec::new(), [thetai, thetas, phis, omega], spectra, flags)
     }
@@ -449,7 +453,7 @@ fn check(request: &TableRequest) -> Result<(), MaterialError> {
     if let Some(nm) = bad {
         return Err(MaterialError::request("wavelengths", format!("{nm} nm is no wavelength")));
     }
-    let What::Grid(grid) = &request.what else { return Ok(()) };
+    let TableDirections::Grid(grid) = &request.what else { return Ok(()) };
     for (name, nodes, low, high) in [
         ("thetai", &grid.thetai, 0.0, 180.0),
         ("thetas", &grid.thetas, 0.0, 180.0),
@@ -477,7 +481,7 @@ fn symmetry(phis: &[f64]) -> Symmetry {
     if phis.iter().all(|phi| *phi >= 0.0) { Symmetry::Mirror } else { Symmetry::None }
 }
 
-type Parts = (Vec<Probes>, Vec<Group>, usize);
+type Parts = (Vec<Probes>, Vec<IncidenceGroup>, usize);
 
 fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, MaterialError> {
     let mut probes = Probes::default();
@@ -495,8 +499,8 @@ fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, Materi
                 _ => Patch::Point,
             };
             match grid.patch {
-                GridPatch::Cell if !empty => {
-                    probes.add_cell(&Cell { theta, phi: rad(*phi), center });
+                GridPatch::PolarCell if !empty => {
+                    probes.add_cell(&PolarCell { theta, phi: rad(*phi), center });
                 }
                 GridPatch::Ring if !empty => probes.add_ring(theta),
                 _ => admit(&probes, &patch, request)
@@ -506,10 +510,10 @@ fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, Materi
             nodes.push((*thetas, *phis));
         }
     }
-    let group = |(number, thetai): (usize, &f64)| Group {
+    let group = |(number, thetai): (usize, &f64)| IncidenceGroup {
         thetai: above(*thetai),
         rows: (nodes.iter().enumerate())
-            .map(|(k, &(thetas, phis))| At {
+            .map(|(k, &(thetas, phis))| PatchTarget {
                 row: number * nodes.len() + k,
                 angles: [*thetai, thetas, phis],
                 flags: flags(*thetai, thetas),
@@ -517,16 +521,16 @@ fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, Materi
             .collect(),
         probes: 0,
     };
-    let groups: Vec<Group> = grid.thetai.iter().enumerate().map(group).collect();
+    let groups: Vec<IncidenceGroup> = grid.thetai.iter().enumerate().map(group).collect();
     let rows = grid.thetai.len() * probes.len();
     Ok((vec![probes], groups, rows))
 }
 
-fn list_work(list: &[Place], request: &TableRequest) -> Result<Parts, MaterialError> {
-    let (mut probes, mut groups): (Vec<Probes>, Vec<Group>) = Default::default();
+fn list_work(list: &[PatchRow], request: &TableRequest) -> Result<Parts, MaterialError> {
+    let (mut probes, mut groups): (Vec<Probes>, Vec<IncidenceGroup>) = Default::default();
     let mut known: HashMap<u64, usize> = HashMap::new();
     for (row, place) in list.iter().enumerate() {
-        let Place { thetai, thetas, phis, patch } = place;
+        let PatchRow { thetai, thetas, phis, patch } = place;
         if !(0.0..=180.0).contains(thetai) || !thetas.is_finite() || !phis.is_finite() {
             let part = format!("patch {}", row + 1);
             return Err(MaterialError::request(part, "expected finite angles in degrees"));
@@ -535,7 +539,11 @@ fn list_work(list: &[Place], request: &TableRequest) -> Result<Parts, MaterialEr
         let bits = (above(*thetai) + 0.0).to_bits();
         let at = *known.entry(bits).or_insert_with(|| {
             probes.push(Probes::default());
-            groups.push(Group { thetai: above(*thetai), rows: Vec::new(), probes: groups.len() });
+            groups.push(IncidenceGroup {
+                thetai: above(*thetai),
+                rows: Vec::new(),
+                probes: groups.len(),
+            });
             groups.len() - 1
         });
         admit(&probes[at], patch, request)?;
@@ -545,7 +553,7 @@ fn list_work(list: &[Place], request: &TableRequest) -> Result<Parts, MaterialEr
             .map_err(|error| MaterialError::Patch { number: row + 1, error })?;
         within(&probes[at], request)?;
         let (angles, flags) = ([*thetai, *thetas, *phis], flags(*thetai, *thetas));
-        groups[at].rows.push(At { row, angles, flags });
+        groups[at].rows.push(PatchTarget { row, angles, flags });
     }
     Ok((probes, groups, list.len()))
 }
@@ -582,30 +590,33 @@ fn first_not_finite(row: &ColourRow, wavelengths: &[f64]) -> Option<f64> {
     wavelengths.get(at).copied()
 }
 
-fn layout(what: &What) -> Layout {
-    let What::Grid(grid) = what else { return Layout::List };
+fn layout(what: &TableDirections) -> RowOrder {
+    let TableDirections::Grid(grid) = what else { return RowOrder::List };
     let axes = [("thetai", &grid.thetai), ("thetas", &grid.thetas), ("phis", &grid.phis)];
-    let axis = |(name, nodes): (&str, &Vec<f64>)| Axis { name: name.into(), nodes: nodes.clone() };
-    Layout::Grid { axes: axes.map(axis).into(), symmetry: symmetry(&grid.phis) }
+    let axis =
+        |(name, nodes): (&str, &Vec<f64>)| TableAxis { name: name.into(), nodes: nodes.clone() };
+    RowOrder::Grid { axes: axes.map(axis).into(), symmetry: symmetry(&grid.phis) }
 }
 
-fn patch_name(what: &What) -> colour::Patch {
+fn patch_name(what: &TableDirections) -> colour::RowPatch {
     match what {
-        What::Grid(grid) => match grid.patch {
-            GridPatch::Point => colour::Patch::Point,
-            GridPatch::Circle(alpha) => colour::Patch::Circle(alpha),
-            GridPatch::Cell => colour::Patch::Cell,
-            GridPatch::Ring => colour::Patch::Ring,
+        TableDirections::Grid(grid) => match grid.patch {
+            GridPatch::Point => colour::RowPatch::Point,
+            GridPatch::Circle(alpha) => colour::RowPatch::Circle(alpha),
+            GridPatch::PolarCell => colour::RowPatch::PolarCell,
+            GridPatch::Ring => colour::RowPatch::Ring,
         },
-        What::List(list) => match list.first().map(|place| &place.patch) {
+        TableDirections::List(list) => match list.first().map(|place| &place.patch) {
             Some(first) if list.iter().all(|place| place.patch == *first) => match first {
-                Patch::Circle(alpha) => colour::Patch::Circle(*alpha),
-                Patch::Ring(inner, outer) => colour::Patch::Other(format!("ring {inner} {outer}")),
-                Patch::Polygon(_) => colour::Patch::Other("polygon".into()),
-                Patch::Point => colour::Patch::Point,
+                Patch::Circle(alpha) => colour::RowPatch::Circle(*alpha),
+                Patch::Ring(inner, outer) => {
+                    colour::RowPatch::Other(format!("ring {inner} {outer}"))
+                }
+                Patch::Polygon(_) => colour::RowPatch::Other("polygon".into()),
+                Patch::Point => colour::RowPatch::Point,
             },
-            Some(_) => colour::Patch::Other("mixed".into()),
-            None => colour::Patch::Point,
+            Some(_) => colour::RowPatch::Other("mixed".into()),
+            None => colour::RowPatch::Point,
         },
     }
 }

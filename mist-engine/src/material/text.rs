@@ -12,18 +12,18 @@ use serde::{
 const DIGITS: usize = 16;
 
 /// A text, or a number that is written as one.
-struct Text(String);
+struct ParameterText(String);
 
-impl<'de> Deserialize<'de> for Text {
+impl<'de> Deserialize<'de> for ParameterText {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
         #[serde(untagged, expecting = "a text or a number")]
         enum Either {
-            Text(String),
+            ParameterText(String),
             Number(f64),
         }
         Ok(Self(match Either::deserialize(deserializer)? {
-            Either::Text(text) => text,
+            Either::ParameterText(text) => text,
             Either::Number(number) => general(number, DIGITS),
         }))
     }
@@ -39,12 +39,12 @@ pub(super) fn serialize<S: Serializer>(
 pub(super) fn deserialize<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<Vec<(String, String)>, D::Error> {
-    deserializer.deserialize_any(Parameters)
+    deserializer.deserialize_any(ParametersVisitor)
 }
 
-struct Parameters;
+struct ParametersVisitor;
 
-impl<'de> Visitor<'de> for Parameters {
+impl<'de> Visitor<'de> for ParametersVisitor {
     type Value = Vec<(String, String)>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -54,7 +54,7 @@ impl<'de> Visitor<'de> for Parameters {
     /// The order of an object means nothing, so parents come before their sub-parameters.
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
         let mut found = Vec::new();
-        while let Some((name, Text(text))) = map.next_entry::<String, Text>()? {
+        while let Some((name, ParameterText(text))) = map.next_entry::<String, ParameterText>()? {
             found.push((name, text));
         }
         found.sort_by_key(|(name, _)| name.matches('.').count());
@@ -63,7 +63,9 @@ impl<'de> Visitor<'de> for Parameters {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
         let mut found = Vec::new();
-        while let Some((name, Text(text))) = list.next_element::<(String, Text)>()? {
+        while let Some((name, ParameterText(text))) =
+            list.next_element::<(String, ParameterText)>()?
+        {
             found.push((name, text));
         }
         Ok(found)

@@ -9,7 +9,7 @@ use super::{Angles, Polygon, Region, RegionError, unit};
 
 /// A polygonal outline and the projected solid angle (sr) that NIST's program gives it.
 #[derive(Clone, Debug)]
-pub(crate) struct Outline {
+pub(crate) struct PolygonOutline {
     pub(crate) polygon: Polygon,
     pub(crate) projected_solid_angle: f64,
 }
@@ -20,7 +20,7 @@ pub(crate) struct Outline {
 ///
 /// For a negative number of sides, and for polygons whose edges cross or that reach below the
 /// horizon.
-pub(crate) fn outline(region: &Region, sides: i32) -> Result<Outline, RegionError> {
+pub(crate) fn outline(region: &Region, sides: i32) -> Result<PolygonOutline, RegionError> {
     if sides < 0 && matches!(region, Region::Circle { .. } | Region::Hemi) {
         return Err(RegionError::PolygonSides(sides));
     }
@@ -29,7 +29,7 @@ pub(crate) fn outline(region: &Region, sides: i32) -> Result<Outline, RegionErro
         Region::Circle { center, alpha } => Ok(circle(*center, *alpha, sides)),
         Region::Hemi => {
             let rim = steps(sides).map(|t| unit((FRAC_PI_2, t)).truncate()).collect();
-            Ok(Outline { projected_solid_angle: PI, ..of(rim) })
+            Ok(PolygonOutline { projected_solid_angle: PI, ..of(rim) })
         }
         Region::Annulus { outer_center, outer_alpha, inner_center, inner_alpha } => {
             Ok(annulus((*outer_center, *outer_alpha), (*inner_center, *inner_alpha), sides))
@@ -67,9 +67,9 @@ pub(crate) fn refuse_crossing(found: Option<(usize, usize)>) -> Result<(), Regio
     }
 }
 
-fn of(vertices: Vec<DVec2>) -> Outline {
+fn of(vertices: Vec<DVec2>) -> PolygonOutline {
     let polygon = Polygon::new(vertices);
-    Outline { projected_solid_angle: polygon.area(), polygon }
+    PolygonOutline { projected_solid_angle: polygon.area(), polygon }
 }
 
 /// 0, s, 2s, … up to 2π by repeated addition, s = 2π/`sides`.
@@ -78,8 +78,8 @@ fn steps(sides: i32) -> impl Iterator<Item = f64> {
     std::iter::successors(Some(0.0), move |t| Some(t + step)).take_while(|t| *t <= TAU)
 }
 
-fn circle(center: Angles, alpha: f64, sides: i32) -> Outline {
-    let frame = Frame::new(center);
+fn circle(center: Angles, alpha: f64, sides: i32) -> PolygonOutline {
+    let frame = AxisRotation::new(center);
     let rim =
         steps(sides).map(|t| raised(frame.turn(unit((alpha, t)).to_array()).into())).collect();
     let mut outline = of(rim);
@@ -100,14 +100,14 @@ fn raised(v: DVec3) -> DVec2 {
 
 /// The turn that takes the normal to a given direction: about y, then about z.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct AxisRotation {
     sin: f64,
     cos: f64,
     sin_phi: f64,
     cos_phi: f64,
 }
 
-impl Frame {
+impl AxisRotation {
     /// The turn that takes the normal to `axis`.
     pub(crate) fn new(axis: Angles) -> Self {
         let ((sin, cos), (sin_phi, cos_phi)) = (axis.0.sin_cos(), axis.1.sin_cos());
@@ -123,7 +123,7 @@ impl Frame {
 }
 
 /// Both rings as one polygon, the inner one first.
-fn annulus(outer: (Angles, f64), inner: (Angles, f64), sides: i32) -> Outline {
+fn annulus(outer: (Angles, f64), inner: (Angles, f64), sides: i32) -> PolygonOutline {
     let (mut vertices, inner_tilt) = ring(inner.0, inner.1, sides);
     let (rest, outer_tilt) = ring(outer.0, outer.1, sides);
     vertices.extend(rest);

@@ -3,7 +3,7 @@
 mod cells;
 mod slabs;
 
-pub(crate) use cells::{Cell, Cells};
+pub(crate) use cells::{CellContent, PolygonCells};
 use glam::DVec2;
 use slabs::Slabs;
 
@@ -13,7 +13,7 @@ pub(crate) struct Polygon {
     vertices: Vec<DVec2>,
     slabs: Slabs,
     /// Only for polygons about which many points are asked.
-    cells: Option<Cells>,
+    cells: Option<PolygonCells>,
 }
 
 /// How many slabs there are at least and at most, and for how many edges one.
@@ -24,12 +24,12 @@ const CELLS: (usize, usize, f64) = (16, 128, 3.0);
 
 /// One edge, from `a` to `b`.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct PolygonEdge {
     a: DVec2,
     b: DVec2,
 }
 
-impl Edge {
+impl PolygonEdge {
     /// Whether a ray from `p` counts this edge: the first rule that applies decides.
     fn counts(&self, p: DVec2) -> bool {
         let Self { a, b } = self;
@@ -64,7 +64,7 @@ impl Polygon {
         let (least, most, points) = CELLS;
         let side = (count as f64 / points).sqrt() as usize;
         if side >= least {
-            self.cells = Cells::new(&self.vertices, side.min(most), |p| self.contains(p));
+            self.cells = PolygonCells::new(&self.vertices, side.min(most), |p| self.contains(p));
         }
         self
     }
@@ -76,7 +76,7 @@ impl Polygon {
 
     /// What is known about points that are far from all edges, whatever the rounding of their
     /// coordinates.
-    pub(crate) fn cells(&self) -> Option<&Cells> {
+    pub(crate) fn cells(&self) -> Option<&PolygonCells> {
         self.cells.as_ref()
     }
 
@@ -103,13 +103,13 @@ impl Polygon {
 
 /// The edge from vertex `k` to the next one, or to the first.
 #[inline]
-fn edge(vertices: &[DVec2], k: usize) -> Edge {
+fn edge(vertices: &[DVec2], k: usize) -> PolygonEdge {
     let next = if k + 1 == vertices.len() { 0 } else { k + 1 };
-    Edge { a: vertices[k], b: vertices[next] }
+    PolygonEdge { a: vertices[k], b: vertices[next] }
 }
 
 /// The edges in order, the closing one last.
-fn edges(vertices: &[DVec2]) -> impl Iterator<Item = Edge> + Clone + '_ {
+fn edges(vertices: &[DVec2]) -> impl Iterator<Item = PolygonEdge> + Clone + '_ {
     (0..vertices.len()).map(|k| edge(vertices, k))
 }
 
@@ -161,7 +161,7 @@ mod tests {
             let know = |p: DVec2| {
                 let cells = polygon.cells()?;
                 let cell = cells.all()[cells.number(p.to_array()) as usize];
-                (cell != Cell::Edges).then_some(cell == Cell::Inside)
+                (cell != CellContent::Edges).then_some(cell == CellContent::Inside)
             };
             // Points in line with vertices are the ones that the rules may decide otherwise.
             let xs = (-70..=70).map(grid).chain(vertices.iter().map(|v| v.x));

@@ -11,7 +11,7 @@ use crate::{
     fault::{Fault, fault},
     job::{ApertureParameter, IntegralPlan},
     region::Region,
-    sampling::{Sampling, adaptive::Demand},
+    sampling::{Sampling, adaptive::Accuracy},
     step::StepIntegral,
 };
 
@@ -61,7 +61,7 @@ impl ApertureBuilder {
         self,
         plan: &IntegralPlan,
         sampling: Sampling,
-        demand: Option<Demand>,
+        accuracy: Option<Accuracy>,
     ) -> StepIntegral {
         let region = match plan.shape {
             ApertureShape::Differential => Region::Differential { center: self.center },
@@ -78,7 +78,7 @@ impl ApertureBuilder {
             }
         };
         let pol = self.pol.unwrap_or(Stokes::UNPOLARIZED);
-        StepIntegral { region, sampling, demand, pol, inpol: self.inpol }
+        StepIntegral { region, sampling, accuracy, pol, inpol: self.inpol }
     }
 }
 

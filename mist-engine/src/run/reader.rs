@@ -102,7 +102,7 @@ pub(super) fn price(job: &Job, step: &Step) -> Result<f64, Failure> {
     let limit = job.options.limits.directions;
     let mut cost = 0.0;
     for (integral, plan) in step.integrals.iter().zip(&job.integrals) {
-        if integral.demand.is_some() {
+        if integral.accuracy.is_some() {
             cost += ADAPTIVE_EVALUATIONS;
             continue;
         }

@@ -30,13 +30,13 @@ mod rays;
 mod rule;
 mod slice;
 
-use cell::{Cell, NODES};
+use cell::{CubatureCell, NODES};
 use integrand::Integrand;
 use rays::Rays;
 
 /// How accurate an integral must become, and what it may cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Demand {
+pub struct Accuracy {
     /// Largest error of an element, relative to the largest element: that of unpolarized light.
     pub tolerance: f64,
     /// Evaluations of the model, at most; they are held in memory, about 6 bytes each.
@@ -91,7 +91,7 @@ pub enum AdaptiveError {
     Stopped,
 }
 
-/// The Mueller integral of `model` over `region`, to the accuracy that `demand` asks for.
+/// The Mueller integral of `model` over `region`, to this `accuracy`.
 ///
 /// The bits do not depend on the number of threads.
 ///
@@ -104,7 +104,7 @@ pub fn integrate(
     incidence: &Incidence,
     basis: Basis,
     region: &Region,
-    demand: &Demand,
+    accuracy: &Accuracy,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Estimate, AdaptiveError> {
     let integrand = Integrand::new(model, incidence, basis, region);
@@ -112,7 +112,7 @@ pub fn integrate(
         return Ok(integrand.one(*center));
     }
     let mut cubature = Cubature::new(&integrand, region, stop)?;
-    cubature.refine(demand)
+    cubature.refine(accuracy)
 }
 
 /// The directions at which the cells that [`integrate`] ends with have their nodes, and the
@@ -126,12 +126,12 @@ pub(crate) fn nodes(
     incidence: &Incidence,
     basis: Basis,
     region: &Region,
-    demand: &Demand,
+    accuracy: &Accuracy,
     visit: &mut dyn FnMut(DVec3, &Mueller),
 ) -> Result<(), AdaptiveError> {
     let integrand = Integrand::new(model, incidence, basis, region);
     let mut cubature = Cubature::new(&integrand, region, &|| false)?;
-    cubature.refine(demand)?;
+    cubature.refine(accuracy)?;
     for measured in &cubature.cells {
         let mut at = measured.cell.nodes(&measured.cell.fan(&cubature.rays));
         at.weights = at.v[2].map(f64::recip);
@@ -147,8 +147,8 @@ pub(crate) fn nodes(
 }
 
 /// A cell with its part of the integral.
-struct Measured {
-    cell: Cell,
+struct MeasuredCell {
+    cell: CubatureCell,
     matrix: Mueller,
     error: Mueller,
     /// Whether the error along p is larger than that along t.
@@ -160,7 +160,7 @@ struct Cubature<'a> {
     integrand: &'a Integrand<'a>,
     rays: Rays,
     stop: &'a (dyn Fn() -> bool + Sync),
-    cells: Vec<Measured>,
+    cells: Vec<MeasuredCell>,
     evaluations: u64,
 }
 
@@ -179,24 +179,24 @@ impl<'a> Cubature<'a> {
         Ok(cubature)
     }
 
-    /// Halves cells until the sum of their errors is as small as `demand` asks.
-    fn refine(&mut self, demand: &Demand) -> Result<Estimate, AdaptiveError> {
+    /// Halves cells until the sum of their errors meets `accuracy`.
+    fn refine(&mut self, accuracy: &Accuracy) -> Result<Estimate, AdaptiveError> {
         loop {
             let sum = self.total();
             if !sum.is_finite() {
                 return Err(AdaptiveError::NotFinite);
             }
             let (largest, error) = (sum.matrix.largest(), sum.error.largest());
-            let target = (demand.tolerance * largest).max(FLOOR);
+            let target = (accuracy.tolerance * largest).max(FLOOR);
             let is_reached = error <= target;
             let split =
                 if is_reached { balance::too_long(&self.cells) } else { self.worst(target) };
-            let fits = self.evaluations + (2 * NODES * split.len()) as u64 <= demand.budget;
+            let fits = self.evaluations + (2 * NODES * split.len()) as u64 <= accuracy.budget;
             if is_reached && (split.is_empty() || !fits) {
                 return Ok(sum);
             }
             if !fits {
-                let (tolerance, evaluations) = (demand.tolerance, self.evaluations);
+                let (tolerance, evaluations) = (accuracy.tolerance, self.evaluations);
                 let reached = error / largest;
                 return Err(AdaptiveError::Budget { tolerance, reached, evaluations });
             }
@@ -209,16 +209,17 @@ impl<'a> Cubature<'a> {
         }
     }
 
-    fn measure(&mut self, cells: Vec<Cell>) -> Result<Vec<Measured>, AdaptiveError> {
+    fn measure(&mut self, cells: Vec<CubatureCell>) -> Result<Vec<MeasuredCell>, AdaptiveError> {
         let (rays, integrand, stop) = (&self.rays, self.integrand, self.stop);
         self.evaluations += (NODES * cells.len()) as u64;
         // Cells behind each other on the same rays, as most are, share them.
-        let groups: Vec<&[Cell]> = cells.chunk_by(Cell::shares_rays).collect();
-        let measured: Option<Vec<Vec<Measured>>> = groups
+        let groups: Vec<&[CubatureCell]> = cells.chunk_by(CubatureCell::shares_rays).collect();
+        let measured: Option<Vec<Vec<MeasuredCell>>> = groups
             .into_par_iter()
             .map(|cells| {
                 let fan = cells[0].fan(rays);
-                let measure = |cell: &Cell| (!stop()).then(|| cell.measure(&fan, integrand));
+                let measure =
+                    |cell: &CubatureCell| (!stop()).then(|| cell.measure(&fan, integrand));
                 cells.par_iter().map(measure).collect()
             })
             .collect();
@@ -227,7 +228,7 @@ impl<'a> Cubature<'a> {
 
     fn total(&self) -> Estimate {
         let mut sum = Estimate { evaluations: self.evaluations, ..Estimate::default() };
-        for Measured { matrix, error, .. } in &self.cells {
+        for MeasuredCell { matrix, error, .. } in &self.cells {
             sum.matrix += *matrix;
             sum.error += *error;
         }

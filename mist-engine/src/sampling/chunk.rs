@@ -6,11 +6,11 @@ use scattering::{
     polarization::DirectionWeights,
 };
 
-use super::{lifting::Lifted, points::Points, turn::Turn};
+use super::{lifting::Lifted, points::PlanePoints, sensitivity_rotation::SensitivityRotation};
 
 /// A part of a layout, in the order of evaluation.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Chunk {
+pub(crate) struct DirectionChunk {
     pub(crate) directions: Vec<Direction>,
     /// Weights of the sampling times cos θ, turned towards the centre of polarization.
     pub(crate) weights: DirectionWeights,
@@ -19,12 +19,12 @@ pub(crate) struct Chunk {
 /// Memory for the making of chunks, to be used again.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    pub(super) points: Points,
+    pub(super) points: PlanePoints,
     pub(super) lifted: Lifted,
-    pub(super) chunk: Chunk,
+    pub(super) chunk: DirectionChunk,
 }
 
-impl Chunk {
+impl DirectionChunk {
     /// Becomes one direction whose sensitivity is not turned, or none.
     pub(super) fn fill_with_one(&mut self, direction: Option<Direction>) {
         self.directions.clear();
@@ -36,7 +36,7 @@ impl Chunk {
     }
 
     /// Becomes the directions of unit vectors above the horizon.
-    pub(super) fn fill(&mut self, lifted: &Lifted, turn: &Turn) {
+    pub(super) fn fill(&mut self, lifted: &Lifted, turn: &SensitivityRotation) {
         self.directions.clear();
         let whole = lifted.count().next_multiple_of(WIDTH);
         self.directions.reserve(whole);
@@ -49,15 +49,15 @@ impl Chunk {
 
 /// The filling of a chunk, which has room.
 struct Filling<'a> {
-    chunk: &'a mut Chunk,
+    chunk: &'a mut DirectionChunk,
     lifted: &'a Lifted,
-    turn: &'a Turn,
+    turn: &'a SensitivityRotation,
 }
 
 impl LaneKernel for Filling<'_> {
     #[inline(always)]
     fn run<V: SimdLevel>(self, vectors: V) {
-        let Self { chunk: Chunk { directions, weights }, lifted, turn } = self;
+        let Self { chunk: DirectionChunk { directions, weights }, lifted, turn } = self;
         let DirectionWeights { weight, cos2b, sin2b } = weights;
         let turns = cos2b.as_chunks_mut().0.iter_mut().zip(sin2b.as_chunks_mut().0);
         let weights = weight.as_chunks_mut().0.iter_mut().zip(turns);

@@ -2,7 +2,7 @@
 
 use crate::region::{Apertures, Region};
 
-use super::{Sampling, adaptive::Demand};
+use super::{Sampling, adaptive::Accuracy};
 
 /// Equal for layouts with the same directions: the bits of all numbers that define them.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -28,9 +28,9 @@ impl LayoutKey {
     }
 
     /// The key of adaptive integrals over `region`; no layout has it.
-    pub fn adaptive(region: &Region, demand: &Demand) -> Self {
+    pub fn adaptive(region: &Region, accuracy: &Accuracy) -> Self {
         let mut bits = shape(region);
-        bits.extend([demand.tolerance.to_bits(), demand.budget]);
+        bits.extend([accuracy.tolerance.to_bits(), accuracy.budget]);
         Self { bits }
     }
 }

@@ -4,8 +4,8 @@
 use glam::{DVec2, DVec3};
 use scattering::lanes::{LaneKernel, Real, SimdLevel, WIDTH, dispatch};
 
-use super::{Inside, points::Points, projection::Projection};
-use crate::region::{Cell, Cells, Frame};
+use super::{Membership, points::PlanePoints, projection::Projection};
+use crate::region::{AxisRotation, CellContent, PolygonCells};
 
 /// Unit vectors with their weights, part by part; there is room behind the last one.
 #[derive(Debug, Default)]
@@ -18,7 +18,7 @@ pub(super) struct Lifted {
 
 /// A point about which has to be asked.
 #[derive(Clone, Copy)]
-pub(super) struct Asked {
+pub(super) struct UndecidedPoint {
     /// In the plane.
     pub(super) plane: DVec2,
     /// On the sphere.
@@ -28,24 +28,29 @@ pub(super) struct Asked {
 }
 
 /// What is known about points from where they lie.
-pub(super) struct Known<'a> {
+pub(super) struct PointClassifier<'a> {
     projection: Projection,
-    frame: &'a Frame,
-    inside: &'a Inside,
+    frame: &'a AxisRotation,
+    inside: &'a Membership,
     /// By number: the first tells nothing, the last is outside.
-    verdicts: &'a [Cell],
+    verdicts: &'a [CellContent],
 }
 
 /// The verdicts where there are no cells, and their numbers.
-const WITHOUT_CELLS: &[Cell] = &[Cell::Edges, Cell::Inside, Cell::Outside];
+const WITHOUT_CELLS: &[CellContent] =
+    &[CellContent::Edges, CellContent::Inside, CellContent::Outside];
 const ASK: f64 = 0.0;
 const INSIDE: f64 = 1.0;
 const OUTSIDE: f64 = 2.0;
 
-impl<'a> Known<'a> {
+impl<'a> PointClassifier<'a> {
     /// About points that `projection` puts on a cone with this frame and that are to lie `inside`.
-    pub(super) fn new(projection: Projection, frame: &'a Frame, inside: &'a Inside) -> Self {
-        let verdicts = inside.cells().map_or(WITHOUT_CELLS, Cells::all);
+    pub(super) fn new(
+        projection: Projection,
+        frame: &'a AxisRotation,
+        inside: &'a Membership,
+    ) -> Self {
+        let verdicts = inside.cells().map_or(WITHOUT_CELLS, PolygonCells::all);
         Self { projection, frame, inside, verdicts }
     }
 
@@ -54,12 +59,12 @@ impl<'a> Known<'a> {
     fn numbers<R: Real>(&self, plane: [R; 2], [x, y, z]: [R; 3]) -> R {
         let above = match (self.inside, self.inside.cells()) {
             (_, Some(cells)) => cells.number([x, y]),
-            (Inside::Cone, _) => z.splat(INSIDE),
-            (Inside::Outside { axis, cos }, _) => {
+            (Membership::Cone, _) => z.splat(INSIDE),
+            (Membership::Outside { axis, cos }, _) => {
                 let to_axis = x * axis.x + y * axis.y + z * axis.z;
                 (-to_axis + *cos).select(z.splat(INSIDE), z.splat(OUTSIDE))
             }
-            (Inside::Polygon(_) | Inside::One(_), None) => z.splat(ASK),
+            (Membership::Polygon(_) | Membership::One(_), None) => z.splat(ASK),
         };
         let outside = z.splat((self.verdicts.len() - 1) as f64);
         let clearance = self.projection.clearance(plane, z);
@@ -67,8 +72,8 @@ impl<'a> Known<'a> {
     }
 }
 
-impl Inside {
-    fn cells(&self) -> Option<&Cells> {
+impl Membership {
+    fn cells(&self) -> Option<&PolygonCells> {
         match self {
             Self::Polygon(polygon) => polygon.cells(),
             Self::Cone | Self::Outside { .. } | Self::One(_) => None,
@@ -81,9 +86,9 @@ impl Lifted {
     /// which nothing is known and their weights times cos θ, if they belong to it.
     pub(super) fn fill(
         &mut self,
-        points: &mut Points,
-        known: &Known<'_>,
-        ask: impl FnMut(Asked) -> Option<(DVec3, f64)>,
+        points: &mut PlanePoints,
+        known: &PointClassifier<'_>,
+        ask: impl FnMut(UndecidedPoint) -> Option<(DVec3, f64)>,
     ) {
         let whole = points.count().next_multiple_of(WIDTH);
         self.v.iter_mut().chain([&mut self.weights]).for_each(|part| part.resize(whole, 0.0));
@@ -122,13 +127,13 @@ impl Lifted {
 }
 
 struct Lifting<'a, F> {
-    points: &'a mut Points,
-    known: &'a Known<'a>,
+    points: &'a mut PlanePoints,
+    known: &'a PointClassifier<'a>,
     ask: F,
     lifted: &'a mut Lifted,
 }
 
-impl<F: FnMut(Asked) -> Option<(DVec3, f64)>> LaneKernel for Lifting<'_, F> {
+impl<F: FnMut(UndecidedPoint) -> Option<(DVec3, f64)>> LaneKernel for Lifting<'_, F> {
     #[inline(always)]
     fn run<V: SimdLevel>(self, vectors: V) {
         let Self { points, known, mut ask, lifted } = self;
@@ -138,17 +143,17 @@ impl<F: FnMut(Asked) -> Option<(DVec3, f64)>> LaneKernel for Lifting<'_, F> {
             let (u, weight) = known.projection.lift(plane[0], plane[1]);
             let v = known.frame.turn(u);
             let numbers = vectors.store(known.numbers(plane, v));
-            let mut verdicts = [Cell::Edges; WIDTH];
+            let mut verdicts = [CellContent::Edges; WIDTH];
             for (verdict, number) in verdicts.iter_mut().zip(numbers) {
                 *verdict = known.verdicts[whole(number)];
             }
             let here = left.min(WIDTH);
             left -= here;
-            if verdicts == [Cell::Outside; WIDTH] {
+            if verdicts == [CellContent::Outside; WIDTH] {
                 continue;
             }
             let projected = weight * v[2];
-            if verdicts == [Cell::Inside; WIDTH] && here == WIDTH {
+            if verdicts == [CellContent::Inside; WIDTH] && here == WIDTH {
                 lifted.push_group(vectors, v, projected);
                 continue;
             }
@@ -157,11 +162,13 @@ impl<F: FnMut(Asked) -> Option<(DVec3, f64)>> LaneKernel for Lifting<'_, F> {
             for k in 0..here {
                 let v = DVec3::new(v[0][k], v[1][k], v[2][k]);
                 let kept = match verdicts[k] {
-                    Cell::Outside => None,
-                    Cell::Inside => Some((v, projected[k])),
-                    Cell::Edges => {
-                        ask(Asked { plane: DVec2::new(px[k], py[k]), v, weight: weight[k] })
-                    }
+                    CellContent::Outside => None,
+                    CellContent::Inside => Some((v, projected[k])),
+                    CellContent::Edges => ask(UndecidedPoint {
+                        plane: DVec2::new(px[k], py[k]),
+                        v,
+                        weight: weight[k],
+                    }),
                 };
                 if let Some((v, weight)) = kept {
                     lifted.push(v, weight);

@@ -4,11 +4,11 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::{Sampling, points::Points, truncated};
+use super::{Sampling, points::PlanePoints, truncated};
 
 /// Where the points of a disk lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Pattern {
+pub(super) enum PointPattern {
     /// One point, the centre.
     One,
     /// x = i `step`, y = j `step` for i and j from −`most` to `most`, j fastest.
@@ -17,7 +17,7 @@ pub(super) enum Pattern {
     Random { count: u64, seed: u64, radius: f64 },
 }
 
-impl Pattern {
+impl PointPattern {
     /// The pattern of a mode: a grid for 1–3, random points for 4–6.
     pub(super) fn new(sampling: &Sampling, step: f64, radius: f64) -> Self {
         if sampling.mode % 10 > 3 {
@@ -49,7 +49,7 @@ impl Pattern {
     }
 
     /// Puts the points of the disk with numbers in `range` into `points`, in order.
-    pub(super) fn part(&self, range: Range<u64>, points: &mut Points) {
+    pub(super) fn part(&self, range: Range<u64>, points: &mut PlanePoints) {
         points.clear();
         match *self {
             Self::One => points.push(0.0, [0.0]),
@@ -133,10 +133,10 @@ fn uniform(bits: u64) -> f64 {
 mod tests {
     use super::*;
 
-    fn all(pattern: Pattern, chunk: u64) -> Vec<(f64, f64)> {
+    fn all(pattern: PointPattern, chunk: u64) -> Vec<(f64, f64)> {
         let n = pattern.points();
         let part = |start| {
-            let mut points = Points::default();
+            let mut points = PlanePoints::default();
             pattern.part(start..n.min(start + chunk), &mut points);
             points.all().collect::<Vec<_>>()
         };
@@ -145,8 +145,8 @@ mod tests {
 
     #[test]
     fn chunks_of_any_size_give_the_same_points() {
-        let grid = Pattern::Grid { step: 0.1, most: 10, radius: 1.0 };
-        let random = Pattern::Random { count: 400, seed: 7, radius: 0.3 };
+        let grid = PointPattern::Grid { step: 0.1, most: 10, radius: 1.0 };
+        let random = PointPattern::Random { count: 400, seed: 7, radius: 0.3 };
         for pattern in [grid, random] {
             assert_eq!(all(pattern, 1), all(pattern, 1000));
             assert_eq!(all(pattern, 13), all(pattern, 1000));
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn grids_run_through_y_first_and_keep_the_rim() {
-        let points = all(Pattern::Grid { step: 0.5, most: 2, radius: 1.0 }, 512);
+        let points = all(PointPattern::Grid { step: 0.5, most: 2, radius: 1.0 }, 512);
         assert_eq!(points.len(), 13);
         assert_eq!(points[..3], [(-1.0, 0.0), (-0.5, -0.5), (-0.5, 0.0)]);
     }
@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn random_points_fill_the_disk_evenly() {
         // The variance of r² is 1/12: six standard errors of its mean are 0.0123.
-        let points = all(Pattern::Random { count: 20_000, seed: 1, radius: 1.0 }, 512);
+        let points = all(PointPattern::Random { count: 20_000, seed: 1, radius: 1.0 }, 512);
         let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / 20_000.0;
         assert!((mean(|(x, y)| x * x + y * y) - 0.5).abs() < 0.0123);
         assert!(mean(|(x, _)| *x).abs() < 0.0213);
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn different_seeds_give_different_points() {
-        let of = |seed| all(Pattern::Random { count: 3, seed, radius: 1.0 }, 512);
+        let of = |seed| all(PointPattern::Random { count: 3, seed, radius: 1.0 }, 512);
         assert_eq!(of(3), of(3));
         assert_ne!(of(3), of(4));
     }

@@ -4,13 +4,13 @@ use scattering::lanes::WIDTH;
 
 /// Points in order.
 #[derive(Debug, Default)]
-pub(super) struct Points {
+pub(super) struct PlanePoints {
     count: usize,
     x: Vec<f64>,
     y: Vec<f64>,
 }
 
-impl Points {
+impl PlanePoints {
     /// Takes all points away.
     pub(super) fn clear(&mut self) {
         self.count = 0;

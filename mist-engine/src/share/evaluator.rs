@@ -19,7 +19,7 @@ use crate::{
     region::{Region, RegionError},
     sampling::{
         Layout, LayoutKey,
-        adaptive::{self, AdaptiveError, Demand},
+        adaptive::{self, Accuracy, AdaptiveError},
     },
     step::{Evaluated, Step, StepIntegral},
 };
@@ -59,14 +59,14 @@ type NumberedDirections = (u64, TaskDirections);
 enum TaskDirections {
     Point(Direction),
     Area(Arc<Layout>),
-    Adaptive(Arc<(Region, Demand)>),
+    Adaptive(Arc<(Region, Accuracy)>),
 }
 
 impl TaskDirections {
     /// Where `integral` collects light, unless that is one direction.
     fn area(integral: &StepIntegral) -> Result<Self, RegionError> {
-        Ok(match integral.demand {
-            Some(demand) => Self::Adaptive(Arc::new((integral.region.clone(), demand))),
+        Ok(match integral.accuracy {
+            Some(accuracy) => Self::Adaptive(Arc::new((integral.region.clone(), accuracy))),
             None => Self::Area(Arc::new(Layout::planned(&integral.region, &integral.sampling)?)),
         })
     }
@@ -74,7 +74,7 @@ impl TaskDirections {
     fn bytes(&self) -> usize {
         match self {
             Self::Area(layout) => layout.bytes(),
-            Self::Point(..) | Self::Adaptive(_) => size_of::<(Region, Demand)>(),
+            Self::Point(..) | Self::Adaptive(_) => size_of::<(Region, Accuracy)>(),
         }
     }
 }
@@ -90,7 +90,7 @@ struct MuellerResult {
 impl MuellerResult {
     fn evaluated(&self, integral: &StepIntegral) -> Evaluated {
         let (pol, inpol) = (&integral.pol, &integral.inpol);
-        let error = match (&self.error, integral.demand) {
+        let error = match (&self.error, integral.accuracy) {
             (Some(error), _) => adaptive::contracted_error(error, pol, inpol),
             (None, Some(_)) => 0.0,
             (None, None) => f64::NAN,
@@ -438,9 +438,9 @@ impl<'a> Evaluator<'a> {
                 text.push('\n');
             };
             // The region was integrated over before without an error.
-            match integral.demand {
-                Some(demand) => {
-                    let region = (&integral.region, &demand);
+            match integral.accuracy {
+                Some(accuracy) => {
+                    let region = (&integral.region, &accuracy);
                     adaptive_samples(model, &incidence, basis, region, light, &mut write);
                 }
                 None => {
@@ -486,9 +486,9 @@ impl IntegralTask {
                 found.map(exact).ok_or(TaskError::Stopped)
             }
             TaskDirections::Adaptive(aperture) => {
-                let (region, demand) = &**aperture;
+                let (region, accuracy) = &**aperture;
                 let model = &built()?.model;
-                adaptive::integrate(model, &self.incidence, basis, region, demand, stop)
+                adaptive::integrate(model, &self.incidence, basis, region, accuracy, stop)
                     .map(|found| {
                         let (matrix, error) = (found.matrix, Some(Arc::new(found.error)));
                         (MuellerResult { matrix, error }, found.evaluations)

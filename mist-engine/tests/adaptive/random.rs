@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use mist_engine::{
     region::Region,
-    sampling::adaptive::{Demand, Estimate, integrate},
+    sampling::adaptive::{Accuracy, Estimate, integrate},
 };
 use proptest::{
     prelude::*,
@@ -105,8 +105,8 @@ fn cases(lobes: impl Strategy<Value = Lobe>) -> impl Strategy<Value = Case> {
 
 fn estimate(case: &Case, tolerance: f64) -> Option<Estimate> {
     let (model, incidence) = (case.lobe.model(), Incidence::new(case.theta_i, 0.0));
-    let demand = Demand { tolerance, budget: 10_000_000 };
-    integrate(&model, &incidence, Basis::Psps, &case.region, &demand, &|| false).ok()
+    let accuracy = Accuracy { tolerance, budget: 10_000_000 };
+    integrate(&model, &incidence, Basis::Psps, &case.region, &accuracy, &|| false).ok()
 }
 
 /// By how many of its errors the coarse integral is off; none for regions that do not exist.

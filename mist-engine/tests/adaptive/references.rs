@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use mist_engine::{
     region::Region,
-    sampling::adaptive::{AdaptiveError, Demand, integrate},
+    sampling::adaptive::{Accuracy, AdaptiveError, integrate},
 };
 use rayon::prelude::*;
 use scattering::{Basis, Incidence, Mode, Model, ParameterNode, ParameterValue, models, spec};
@@ -185,9 +185,9 @@ fn check(case: &Case) -> Vec<String> {
     let incidence = Incidence::new(case.theta_i, 0.0);
     let mut complaints = Vec::new();
     for tolerance in [1e-3, 1e-4, 1e-6, 1e-8] {
-        let demand = Demand { tolerance, budget: 2_000_000 };
+        let accuracy = Accuracy { tolerance, budget: 2_000_000 };
         let found =
-            integrate(&case.model, &incidence, Basis::Psps, &case.region, &demand, &|| false);
+            integrate(&case.model, &incidence, Basis::Psps, &case.region, &accuracy, &|| false);
         let found = match found {
             Ok(found) => found,
             Err(error) => {
@@ -215,8 +215,8 @@ fn what_is_refused_has_not_reached_its_tolerance() {
     let incidence = Incidence::new(theta_i, 0.0);
     let (mut refused, mut last) = (0, None);
     for budget in (500..20_000).step_by(64) {
-        let demand = Demand { tolerance: 1e-3, budget };
-        match integrate(&model, &incidence, Basis::Psps, &region, &demand, &|| false) {
+        let accuracy = Accuracy { tolerance: 1e-3, budget };
+        match integrate(&model, &incidence, Basis::Psps, &region, &accuracy, &|| false) {
             Err(AdaptiveError::Budget { tolerance, reached, .. }) => {
                 assert!(reached > tolerance, "{reached} with {budget}");
                 refused += 1;

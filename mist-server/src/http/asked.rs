@@ -4,7 +4,7 @@ use axum::{
     extract::FromRequestParts,
     http::{Uri, request::Parts},
 };
-use mist_engine::material::{lobes::View, query::ColourNames, table::TableRequest};
+use mist_engine::material::{lobes::LobeRequest, query::ColourNames, table::TableRequest};
 use mist_runner::table_query::TableQuery;
 use rise_bridge::write::Style;
 use serde::{Deserialize, Serialize};
@@ -146,7 +146,7 @@ impl Asked {
     }
 
     /// The same for single directions.
-    pub(super) fn view(&self, limits: &ServeLimits) -> Result<View, ApiError> {
+    pub(super) fn view(&self, limits: &ServeLimits) -> Result<LobeRequest, ApiError> {
         let mut wanted = self.everything_but_directions();
         let turn = renderer::turn(wanted.basis.as_deref());
         if turn.is_some() {
@@ -155,7 +155,7 @@ impl Asked {
         let request = wanted.without_directions("")?;
         admit(&request, limits)?;
         let TableRequest { wavelengths, settings, incident, basis, .. } = request;
-        Ok(View { wavelengths, settings, incident, basis, turn })
+        Ok(LobeRequest { wavelengths, settings, incident, basis, turn })
     }
 
     fn everything_but_directions(&self) -> TableQuery {

@@ -11,7 +11,7 @@ use axum::{
 use glam::DVec3;
 use mist_engine::material::{
     eval,
-    lobes::{Lobes, Out},
+    lobes::{LobeOutput, Lobes},
 };
 use scattering::Mode;
 use serde::Deserialize;
@@ -123,7 +123,7 @@ fn pairs(body: &[u8]) -> Result<Vec<(DVec3, DVec3)>, ApiError> {
 /// A material at the wavelengths of a query, and what is asked of it.
 pub(super) struct Ready {
     lobes: Lobes,
-    out: Out,
+    out: LobeOutput,
 }
 
 /// What the query asks for, from the last asker or new.
@@ -134,14 +134,14 @@ async fn ready(app: &App, kept: Arc<Kept>, uri: &Uri) -> Result<Arc<Ready>, ApiE
         return Ok(found);
     }
     let asked = Asked::of(uri)?;
-    let out = Out::parse(asked.out().unwrap_or("rgb"))?;
+    let out = LobeOutput::parse(asked.out().unwrap_or("rgb"))?;
     let view = asked.view(&app.limits)?;
     let made = app.compute_in_time(move || Lobes::new(&kept.prepared, &view)).await??;
     made.check(out)?;
     Ok(app.ready.keep(key, Arc::new(Ready { lobes: made, out })))
 }
 
-fn admit(app: &App, lobes: &Lobes, pairs: usize, out: Out) -> Result<(), ApiError> {
+fn admit(app: &App, lobes: &Lobes, pairs: usize, out: LobeOutput) -> Result<(), ApiError> {
     let (evaluations, numbers) = (pairs * lobes.wavelengths(), pairs * lobes.width(out));
     let limits = &app.limits;
     for (count, what, flag, value) in [
@@ -157,7 +157,7 @@ fn admit(app: &App, lobes: &Lobes, pairs: usize, out: Out) -> Result<(), ApiErro
 }
 
 /// Pieces of the work on all threads.
-fn in_parallel(lobes: &Lobes, pairs: &[(DVec3, DVec3)], out: Out) -> Vec<f32> {
+fn in_parallel(lobes: &Lobes, pairs: &[(DVec3, DVec3)], out: LobeOutput) -> Vec<f32> {
     use rayon::prelude::*;
     let parts: Vec<Vec<f32>> =
         pairs.par_chunks(AT_ONCE).map(|pairs| lobes.evaluate(pairs, out)).collect();

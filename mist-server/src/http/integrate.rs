@@ -9,7 +9,7 @@ use mist_engine::{
     Control,
     material::{
         MaterialError,
-        lobes::Out,
+        lobes::LobeOutput,
         table::{self, TableRequest},
     },
 };
@@ -115,14 +115,14 @@ pub(super) async fn integrate(
     accept: Accept,
     Text(body): Text,
 ) -> Result<Response, ApiError> {
-    let out = Out::parse(asked.out().unwrap_or("rgb"))?;
+    let out = LobeOutput::parse(asked.out().unwrap_or("rgb"))?;
     let kept = app.materials.find(&name)?;
     let mut request = asked.wanted_at(rows(body)?).request(&name, None)?;
     admit(&request, &app.limits)?;
     request.limits = app.limits.engine(app.limits.max_time);
     request.stokes |= asked.component() > 0;
     let json = accept == Accept::Json;
-    let values = if out == Out::Mueller { 16.0 } else { 1.0 };
+    let values = if out == LobeOutput::Mueller { 16.0 } else { 1.0 };
     let held = app.memory.reserve(values * memory_of(&request))?;
     let leash = Leash::default();
     let control = Control { cancel: leash.0.clone(), progress: None };
@@ -141,11 +141,11 @@ fn answer(
     request: &TableRequest,
     asked: &Asked,
     control: &Control,
-    (out, json): (Out, bool),
+    (out, json): (LobeOutput, bool),
 ) -> Result<String, ApiError> {
     let style = asked.style();
     let text = match (out, json) {
-        (Out::Mueller, _) => {
+        (LobeOutput::Mueller, _) => {
             let rows = table::mueller(&kept.prepared, request, control)?;
             if json {
                 write::mueller_json(request, &rows)
@@ -153,7 +153,7 @@ fn answer(
                 write::mueller(request, &rows, style)
             }
         }
-        (Out::Spectral, _) => {
+        (LobeOutput::Spectral, _) => {
             let table = table::table(&kept.prepared, request, control)?;
             if json {
                 write::spectra_json(&table, asked.component())
@@ -161,7 +161,7 @@ fn answer(
                 write::mspd(&table, asked.component(), style)
             }
         }
-        (Out::Rgb, json) => {
+        (LobeOutput::Rgb, json) => {
             let table = table::table(&kept.prepared, request, control)?;
             if json { write::json(&table, style.xyz) } else { write::mtab(&table, style) }
         }

@@ -11,7 +11,7 @@ use axum::{
     http::{StatusCode, header},
     response::{IntoResponse, Response},
 };
-use mist_engine::material::{Material, MaterialError, Prepared};
+use mist_engine::material::{Material, MaterialError, PreparedMaterial};
 use scattering::Mode;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -37,7 +37,7 @@ pub(crate) struct Kept {
     /// `sha256-…` of that body.
     pub(crate) hash: String,
     /// The material.
-    pub(crate) prepared: Prepared,
+    pub(crate) prepared: PreparedMaterial,
 }
 
 impl Kept {
@@ -117,7 +117,7 @@ pub(super) async fn put(
     Ok((StatusCode::CREATED, Json(schema::Hash { hash })))
 }
 
-fn prepare(body: &str, limits: &ServeLimits) -> Result<Prepared, ApiError> {
+fn prepare(body: &str, limits: &ServeLimits) -> Result<PreparedMaterial, ApiError> {
     if !body.trim_start().starts_with('{') {
         return first_step(ProgramBody::bare(body.to_owned()), limits);
     }
@@ -129,10 +129,10 @@ fn prepare(body: &str, limits: &ServeLimits) -> Result<Prepared, ApiError> {
 }
 
 /// The material of a program's first step.
-fn first_step(body: ProgramBody, limits: &ServeLimits) -> Result<Prepared, ApiError> {
+fn first_step(body: ProgramBody, limits: &ServeLimits) -> Result<PreparedMaterial, ApiError> {
     body.admit(limits)?;
     let job = body.check(limits.engine(limits.max_time))?;
-    Prepared::of_step(&job).map_err(|failure| ApiError::of_program(&body.program, failure))
+    PreparedMaterial::of_step(&job).map_err(|failure| ApiError::of_program(&body.program, failure))
 }
 
 /// The materials that are kept.

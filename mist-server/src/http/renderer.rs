@@ -1,10 +1,10 @@
 //! The axes in which renderers have their Stokes vectors.
 
-use mist_engine::material::lobes::Turn;
+use mist_engine::material::lobes::BasisChange;
 use rise_bridge::mitsuba::frame;
 
 /// What takes a matrix in `psps` to the basis called `name`, if it is that of a renderer.
-pub(super) fn turn(name: Option<&str>) -> Option<Turn> {
+pub(super) fn turn(name: Option<&str>) -> Option<BasisChange> {
     match name {
         Some("mitsuba") => Some(frame::from_psps),
         _ => None,

@@ -1,7 +1,7 @@
 //! The models of a material at every wavelength of a table.
 
 use glam::DVec3;
-use mist_engine::material::{MaterialError, Prepared};
+use mist_engine::material::{MaterialError, PreparedMaterial};
 use rayon::prelude::*;
 use scattering::{Basis, Geometry, Model, Mueller, Side, vectors::geometry};
 
@@ -24,7 +24,7 @@ impl Bands {
     ///
     /// If there are no wavelengths or they do not rise, if a model transmits, or if its parameters
     /// are invalid.
-    pub fn new(material: &Prepared, nm: &[f64]) -> Result<Self, ExportError> {
+    pub fn new(material: &PreparedMaterial, nm: &[f64]) -> Result<Self, ExportError> {
         let good = nm.iter().all(|x| x.is_finite() && *x > 0.0);
         if nm.is_empty() || !good || nm.windows(2).any(|pair| pair[0] >= pair[1]) {
             let problem = "expected rising wavelengths in nm, such as 450,500,550,600,650";

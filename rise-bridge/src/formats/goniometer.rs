@@ -4,7 +4,7 @@ use std::io::Write;
 
 use mist_engine::{
     Control,
-    material::{Prepared, query, table::GridPatch},
+    material::{PreparedMaterial, query, table::GridPatch},
 };
 
 use super::export::{ExportRequest, error_of_f};
@@ -21,7 +21,7 @@ const CHARACTERS: [usize; 2] = [20, 80];
 /// Writes the table; the line has the error of interpolation.
 pub(super) fn write(
     form: GoniometerForm,
-    (material, request): (&Prepared, &ExportRequest),
+    (material, request): (&PreparedMaterial, &ExportRequest),
     out: &mut dyn Write,
     control: &Control,
 ) -> Result<String, ExportError> {

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use mist_engine::{Control, material::Prepared};
+use mist_engine::{Control, material::PreparedMaterial};
 
 use super::export::{ExportRequest, error_of_f};
 use crate::{
@@ -12,7 +12,7 @@ use crate::{
 
 /// Writes the file; the line has the error inside of the patches.
 pub(super) fn write(
-    material: &Prepared,
+    material: &PreparedMaterial,
     request: &ExportRequest,
     out: &mut dyn Write,
     control: &Control,

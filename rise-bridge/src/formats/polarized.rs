@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use mist_engine::{Control, material::Prepared};
+use mist_engine::{Control, material::PreparedMaterial};
 
 use super::export::ExportRequest;
 use crate::{
@@ -15,7 +15,7 @@ const GRID: &str = "37x46x91";
 
 /// Writes the table; the line has the error of interpolation of all Mueller elements.
 pub(super) fn write(
-    material: &Prepared,
+    material: &PreparedMaterial,
     request: &ExportRequest,
     out: &mut dyn Write,
     control: &Control,

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use mist_engine::{Control, material::Prepared};
+use mist_engine::{Control, material::PreparedMaterial};
 
 use super::export::{ExportRequest, error_of_f};
 use crate::{
@@ -15,7 +15,7 @@ const GRIDS: [&str; 2] = ["24x64", "37x20x48"];
 
 /// Writes the table; the line has the error of interpolation.
 pub(super) fn write(
-    material: &Prepared,
+    material: &PreparedMaterial,
     request: &ExportRequest,
     out: &mut dyn Write,
     control: &Control,

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use mist_engine::{Control, material::Prepared};
+use mist_engine::{Control, material::PreparedMaterial};
 
 use super::export::ExportRequest;
 use crate::{export::ExportError, rise::product};
@@ -14,7 +14,7 @@ const MOST_NODES: usize = 181;
 
 /// Writes the table.
 pub(super) fn write(
-    material: &Prepared,
+    material: &PreparedMaterial,
     request: &ExportRequest,
     out: &mut dyn Write,
     control: &Control,

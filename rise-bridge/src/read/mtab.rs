@@ -1,6 +1,8 @@
 //! Reads `.mtab` (`MIST-TABLE 1`).
 
-use mist_engine::colour::{Albedo, Axis, ColourRow, ColourTable, Layout, Patch, Symmetry};
+use mist_engine::colour::{
+    Albedo, ColourRow, ColourTable, RowOrder, RowPatch, Symmetry, TableAxis,
+};
 
 use super::{
     error::ReadError,
@@ -83,24 +85,24 @@ fn space(line: HeaderLine<'_>) -> Result<String, ReadError> {
     name.map(str::to_owned).ok_or_else(|| line.error("only linear values are supported"))
 }
 
-fn layout(text: &TextTable<'_>) -> Result<Layout, ReadError> {
+fn layout(text: &TextTable<'_>) -> Result<RowOrder, ReadError> {
     let line = text.line("layout")?;
     match line.words().collect::<Vec<_>>()[..] {
         ["list", count] => {
             text.check_count(line.parse(count)?, "\"# layout\"")?;
-            Ok(Layout::List)
+            Ok(RowOrder::List)
         }
         ["grid"] => {
             let axes = text.lines("axis").map(axis).collect::<Result<Vec<_>, _>>()?;
             let product = axes.iter().try_fold(1_usize, |n, a| n.checked_mul(a.nodes.len()));
             text.check_count(product.unwrap_or(usize::MAX), "\"# axis\"")?;
-            Ok(Layout::Grid { axes, symmetry: symmetry(text.line("symmetry")?)? })
+            Ok(RowOrder::Grid { axes, symmetry: symmetry(text.line("symmetry")?)? })
         }
         _ => Err(line.error("expected \"list N\" or \"grid\"")),
     }
 }
 
-fn axis(line: HeaderLine<'_>) -> Result<Axis, ReadError> {
+fn axis(line: HeaderLine<'_>) -> Result<TableAxis, ReadError> {
     let mut words = line.words();
     let (Some(name), Some(count)) = (words.next(), words.next()) else {
         return Err(line.error("expected a name, the number of nodes and the nodes"));
@@ -109,7 +111,7 @@ fn axis(line: HeaderLine<'_>) -> Result<Axis, ReadError> {
     if nodes.len() != line.parse::<usize>(count)? {
         return Err(line.error(format!("{} nodes where {count} are stated", nodes.len())));
     }
-    Ok(Axis { name: name.to_owned(), nodes })
+    Ok(TableAxis { name: name.to_owned(), nodes })
 }
 
 fn symmetry(line: HeaderLine<'_>) -> Result<Symmetry, ReadError> {
@@ -120,13 +122,13 @@ fn symmetry(line: HeaderLine<'_>) -> Result<Symmetry, ReadError> {
     }
 }
 
-fn patch(line: HeaderLine<'_>) -> Result<Patch, ReadError> {
+fn patch(line: HeaderLine<'_>) -> Result<RowPatch, ReadError> {
     Ok(match line.words().collect::<Vec<_>>()[..] {
-        ["point"] => Patch::Point,
-        ["cell"] => Patch::Cell,
-        ["ring"] => Patch::Ring,
-        ["circle", alpha] => Patch::Circle(line.parse(alpha)?),
-        _ => Patch::Other(line.value.to_owned()),
+        ["point"] => RowPatch::Point,
+        ["cell"] => RowPatch::Cell,
+        ["ring"] => RowPatch::Ring,
+        ["circle", alpha] => RowPatch::Circle(line.parse(alpha)?),
+        _ => RowPatch::Other(line.value.to_owned()),
     })
 }
 

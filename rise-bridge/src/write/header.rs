@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use mist_engine::colour::{ColourTable, Layout, Patch, Symmetry};
+use mist_engine::colour::{ColourTable, RowOrder, RowPatch, Symmetry};
 use mist_format::number::general;
 
 use super::rows::number;
@@ -58,13 +58,13 @@ pub(super) fn columns(names: &[String]) -> String {
 }
 
 /// The patch as the header writes it.
-pub(super) fn patch(patch: &Patch) -> String {
+pub(super) fn patch(patch: &RowPatch) -> String {
     match patch {
-        Patch::Point => "point".to_owned(),
-        Patch::Circle(alpha) => format!("circle {}", general(*alpha, NODE_DIGITS)),
-        Patch::Cell => "cell".to_owned(),
-        Patch::Ring => "ring".to_owned(),
-        Patch::Other(text) => text.clone(),
+        RowPatch::Point => "point".to_owned(),
+        RowPatch::Circle(alpha) => format!("circle {}", general(*alpha, NODE_DIGITS)),
+        RowPatch::Cell => "cell".to_owned(),
+        RowPatch::Ring => "ring".to_owned(),
+        RowPatch::Other(text) => text.clone(),
     }
 }
 
@@ -83,8 +83,8 @@ pub(super) fn node(x: f64) -> String {
 
 fn layout_lines(table: &ColourTable, line: &mut impl FnMut(&str, &str)) {
     match &table.layout {
-        Layout::List => line("layout", &format!("list {}", table.rows.len())),
-        Layout::Grid { axes, symmetry: half } => {
+        RowOrder::List => line("layout", &format!("list {}", table.rows.len())),
+        RowOrder::Grid { axes, symmetry: half } => {
             line("layout", "grid");
             line("symmetry", symmetry(*half));
             for axis in axes {

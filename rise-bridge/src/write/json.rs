@@ -1,6 +1,6 @@
 //! The colour table as JSON, with the keys of the text header and numbers that read back exactly.
 
-use mist_engine::colour::{Axis, ColourRow, ColourTable, Layout};
+use mist_engine::colour::{ColourRow, ColourTable, RowOrder, TableAxis};
 use serde::{Serialize, Serializer, ser::SerializeSeq};
 
 use super::{
@@ -91,9 +91,9 @@ pub fn json(table: &ColourTable, xyz: bool) -> Result<String, WriteError> {
 }
 
 fn document(table: &ColourTable, columns: Vec<String>, xyz: bool) -> JsonTable<'_> {
-    let (layout, axes, half): (_, &[Axis], _) = match &table.layout {
-        Layout::List => ("list", &[], None),
-        Layout::Grid { axes, symmetry: half } => ("grid", axes, Some(symmetry(*half))),
+    let (layout, axes, half): (_, &[TableAxis], _) = match &table.layout {
+        RowOrder::List => ("list", &[], None),
+        RowOrder::Grid { axes, symmetry: half } => ("grid", axes, Some(symmetry(*half))),
     };
     JsonTable {
         format: MAGIC,

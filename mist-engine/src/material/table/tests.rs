@@ -11,7 +11,7 @@ const GREY: &str = r#"{"model": "Lambertian_BRDF_Model",
 const ROUGH: &str = r#"{"model": "Facet_BRDF_Model", "parameters":
     [["substrate", "(1.5,0)"], ["sdf", "Gaussian_Slope_Distribution_Function"], ["sdf.s", 0.2]]}"#;
 
-fn request(what: What) -> TableRequest {
+fn request(what: TableDirections) -> TableRequest {
     TableRequest {
         material: "sample".into(),
         what,
@@ -25,9 +25,9 @@ fn request(what: What) -> TableRequest {
     }
 }
 
-fn grid(patch: GridPatch) -> What {
+fn grid(patch: GridPatch) -> TableDirections {
     let phis = if patch == GridPatch::Ring { vec![0.0] } else { vec![0.0, 90.0, 180.0] };
-    What::Grid(GridRequest {
+    TableDirections::Grid(GridRequest {
         thetai: vec![0.0, 45.0, 90.0],
         thetas: vec![0.0, 45.0, 90.0],
         phis,
@@ -80,7 +80,7 @@ fn a_node_is_what_the_model_says_there() {
 #[test]
 fn the_cells_of_a_grid_add_up_to_the_hemispherical_reflectance() {
     let axis = |last: u32| (0..=last / 5).map(|k| f64::from(5 * k)).collect::<Vec<f64>>();
-    let what = What::Grid(GridRequest {
+    let what = TableDirections::Grid(GridRequest {
         thetai: vec![30.0],
         thetas: axis(90),
         phis: axis(180),
@@ -109,19 +109,20 @@ fn one_two_and_seven_threads_give_the_same_bits() {
 
 #[test]
 fn a_list_keeps_its_order_and_refuses_a_wrong_patch_by_its_number() {
-    let place = |thetai, patch| Place { thetai, thetas: 30.0, phis: 0.0, patch };
+    let place = |thetai, patch| PatchRow { thetai, thetas: 30.0, phis: 0.0, patch };
     let list = vec![
         place(60.0, Patch::Circle(2.0)),
         place(10.0, Patch::Ring(5.0, 10.0)),
         place(60.0, Patch::Polygon(vec![(20.0, 0.0), (30.0, 20.0), (40.0, -10.0)])),
     ];
-    let table = run(ROUGH, &request(What::List(list.clone())));
+    let table = run(ROUGH, &request(TableDirections::List(list.clone())));
     assert_eq!(table.rows.iter().map(|row| row.thetai).collect::<Vec<_>>(), [60.0, 10.0, 60.0]);
     assert!(table.albedo.is_empty());
     let mut wrong = list;
     wrong[1].patch = Patch::Polygon(vec![(20.0, 0.0), (100.0, 20.0), (40.0, -10.0)]);
     let material = Material::from_json(ROUGH).unwrap().prepare(Mode::Sound, None).unwrap();
-    let error = super::table(&material, &request(What::List(wrong)), &Control::default());
+    let error =
+        super::table(&material, &request(TableDirections::List(wrong)), &Control::default());
     assert!(error.unwrap_err().to_string().starts_with("patch 2"));
 }
 

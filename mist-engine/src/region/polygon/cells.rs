@@ -6,23 +6,23 @@ use std::ops::RangeInclusive;
 use glam::DVec2;
 use scattering::lanes::Real;
 
-use super::{Edge, edges};
+use super::{PolygonEdge, edges};
 
 /// Cells in rows and columns over the polygon, and one and a half more on each side: those of the
 /// margin hold no vertex.
 #[derive(Clone, Debug)]
-pub(crate) struct Cells {
+pub(crate) struct PolygonCells {
     low: DVec2,
     /// Cells per x and per y.
     per: DVec2,
     side: usize,
     /// Column after column.
-    cells: Vec<Cell>,
+    cells: Vec<CellContent>,
 }
 
 /// What is known about the points of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Cell {
+pub(crate) enum CellContent {
     /// They are inside.
     Inside,
     /// They are outside.
@@ -31,7 +31,7 @@ pub(crate) enum Cell {
     Edges,
 }
 
-impl Cells {
+impl PolygonCells {
     /// `side` cells in x and in y over the polygon with these vertices, where `contain` tells which
     /// points are inside; nothing for a polygon that is too small or not finite.
     pub(super) fn new(
@@ -47,11 +47,11 @@ impl Cells {
         let is_fine = vertices.iter().all(|v| v.is_finite()) && cell.min_element() > SMALLEST;
         is_fine.then(|| {
             let side = side + 3;
-            let cells = vec![Cell::Outside; side * side];
+            let cells = vec![CellContent::Outside; side * side];
             let mut cells = Self { low: low - 1.5 * cell, per: cell.recip(), side, cells };
             cells.mark(vertices);
             cells.fill(contain);
-            cells.cells[0] = Cell::Edges;
+            cells.cells[0] = CellContent::Edges;
             cells
         })
     }
@@ -77,23 +77,23 @@ impl Cells {
 
     fn mark_column(&mut self, column: usize, rows: RangeInclusive<usize>) {
         let first = column * self.side;
-        self.cells[first + rows.start()..=first + rows.end()].fill(Cell::Edges);
+        self.cells[first + rows.start()..=first + rows.end()].fill(CellContent::Edges);
     }
 
     /// Finds out about the cells that are not marked; neighbours of a column are alike.
     fn fill(&mut self, contain: impl Fn(DVec2) -> bool) {
         for (column, cells) in self.cells.chunks_exact_mut(self.side).enumerate() {
-            let mut above = Cell::Edges;
+            let mut above = CellContent::Edges;
             for (row, cell) in cells.iter_mut().enumerate().rev() {
-                if *cell != Cell::Edges {
-                    if above == Cell::Edges {
+                if *cell != CellContent::Edges {
+                    if above == CellContent::Edges {
                         let middle = DVec2::new(column as f64 + 0.5, row as f64 + 0.5);
                         let is_inside = contain(self.low + middle / self.per);
-                        above = if is_inside { Cell::Inside } else { Cell::Outside };
+                        above = if is_inside { CellContent::Inside } else { CellContent::Outside };
                     }
                     *cell = above;
                 } else {
-                    above = Cell::Edges;
+                    above = CellContent::Edges;
                 }
             }
         }
@@ -119,13 +119,13 @@ impl Cells {
         column * self.side as f64 + row
     }
 
-    /// All cells by their numbers: the first is one of [`Cell::Edges`], the last lies outside.
-    pub(crate) fn all(&self) -> &[Cell] {
+    /// All cells by their numbers: the first is one of [`CellContent::Edges`], the last lies outside.
+    pub(crate) fn all(&self) -> &[CellContent] {
         &self.cells
     }
 }
 
-impl Edge {
+impl PolygonEdge {
     /// The lowest and the highest y where it runs between the abscissas `left` and `right`, if it
     /// does.
     fn band(&self, left: f64, right: f64) -> Option<(f64, f64)> {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Edge, edge};
+use super::{PolygonEdge, edge};
 
 /// An edge whose two ends lie on the same side of a point in x is never counted, so leaving it
 /// out changes no decision.
@@ -48,7 +48,7 @@ impl Slabs {
     }
 
     /// The slabs that an edge runs through.
-    fn reached(&self, Edge { a, b }: Edge) -> std::ops::RangeInclusive<usize> {
+    fn reached(&self, PolygonEdge { a, b }: PolygonEdge) -> std::ops::RangeInclusive<usize> {
         self.index(a.x.min(b.x))..=self.index(a.x.max(b.x))
     }
 

@@ -4,14 +4,14 @@
 //! nodes may lie beside it. But a ridge goes on from cell to cell, and where it has been seen, the
 //! cells have become fine.
 
-use super::{Measured, cell::Cell};
+use super::{MeasuredCell, cell::CubatureCell};
 
 /// How much longer than its neighbour a cell may be: its eight nodes are still no further
 /// apart than the shorter one is long.
 const RATIO: f64 = 8.0;
 
 /// One side of a cell, as it meets others.
-struct Side {
+struct CellSide {
     /// The slice, the interval, and where across the cells touch.
     line: (usize, usize, f64),
     /// From where to where along the line.
@@ -22,7 +22,7 @@ struct Side {
 }
 
 /// The cells that are too long for a neighbour, and whether along p; in order.
-pub(super) fn too_long(cells: &[Measured]) -> Vec<(usize, bool)> {
+pub(super) fn too_long(cells: &[MeasuredCell]) -> Vec<(usize, bool)> {
     let mut found = Vec::new();
     for along_p in [true, false] {
         let lengths = cells.iter().map(|c| length(reach(&c.cell, along_p)));
@@ -37,21 +37,21 @@ pub(super) fn too_long(cells: &[Measured]) -> Vec<(usize, bool)> {
     found
 }
 
-fn beside_shorter(cells: &[Measured], along_p: bool) -> Vec<usize> {
-    let mut sides: Vec<Side> = Vec::with_capacity(2 * cells.len());
-    for (k, Measured { cell, .. }) in cells.iter().enumerate() {
+fn beside_shorter(cells: &[MeasuredCell], along_p: bool) -> Vec<usize> {
+    let mut sides: Vec<CellSide> = Vec::with_capacity(2 * cells.len());
+    for (k, MeasuredCell { cell, .. }) in cells.iter().enumerate() {
         let (from, to) = reach(cell, !along_p);
         for (at, begins) in [(from, true), (to, false)] {
             let line = (cell.slice, cell.interval, at);
-            sides.push(Side { line, reach: reach(cell, along_p), begins, cell: k });
+            sides.push(CellSide { line, reach: reach(cell, along_p), begins, cell: k });
         }
     }
-    let key = |side: &Side| (side.line, side.reach.0);
+    let key = |side: &CellSide| (side.line, side.reach.0);
     sides.sort_by(|a, b| key(a).partial_cmp(&key(b)).expect("numbers"));
     let mut found = Vec::new();
     for line in sides.chunk_by(|a, b| a.line == b.line) {
         // The last side that began on either hand: what overlaps a later one.
-        let mut last: [Option<&Side>; 2] = [None; 2];
+        let mut last: [Option<&CellSide>; 2] = [None; 2];
         for side in line {
             if let Some(other) = last[usize::from(!side.begins)]
                 && other.reach.1 > side.reach.0
@@ -69,7 +69,7 @@ fn beside_shorter(cells: &[Measured], along_p: bool) -> Vec<usize> {
     found
 }
 
-fn reach(cell: &Cell, along_p: bool) -> (f64, f64) {
+fn reach(cell: &CubatureCell, along_p: bool) -> (f64, f64) {
     if along_p { cell.s } else { cell.u }
 }
 
@@ -83,16 +83,16 @@ mod tests {
 
     use super::*;
 
-    fn measured(cells: &[Cell]) -> Vec<Measured> {
+    fn measured(cells: &[CubatureCell]) -> Vec<MeasuredCell> {
         let zero = Mueller::ZERO;
         cells
             .iter()
-            .map(|cell| Measured { cell: *cell, matrix: zero, error: zero, along_p: false })
+            .map(|cell| MeasuredCell { cell: *cell, matrix: zero, error: zero, along_p: false })
             .collect()
     }
 
-    fn cell(interval: usize, s: (f64, f64), u: (f64, f64)) -> Cell {
-        Cell { slice: 3, interval, s, u }
+    fn cell(interval: usize, s: (f64, f64), u: (f64, f64)) -> CubatureCell {
+        CubatureCell { slice: 3, interval, s, u }
     }
 
     #[test]

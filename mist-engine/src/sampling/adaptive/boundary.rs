@@ -27,7 +27,7 @@ pub(super) struct Circle {
 
 /// What belongs to the region, above the horizon.
 #[derive(Clone, Debug)]
-enum Inside {
+enum Interior {
     /// What is inside of all edges, or of all but the last one, which is an `inner` rim.
     Caps { inner: bool },
     /// What the polygon contains in the projection.
@@ -36,11 +36,11 @@ enum Inside {
 
 /// What bounds a region.
 #[derive(Clone, Debug)]
-pub(super) struct Boundary {
-    /// The edges, then the rims of lobe supports.
+pub(super) struct RegionBoundary {
+    /// The edges, then the rims of supports.
     pub(super) circles: Vec<Circle>,
     edges: usize,
-    inside: Inside,
+    inside: Interior,
     /// Where circles cross.
     pub(super) corners: Vec<DVec3>,
 }
@@ -96,7 +96,7 @@ impl Circle {
     }
 }
 
-impl Boundary {
+impl RegionBoundary {
     /// The boundary of `region` and the rims of `supports`.
     pub(super) fn new(region: &Region, supports: &[LobeSupport]) -> Result<Self, RegionError> {
         let mut boundary = Self::of(region)?;
@@ -132,7 +132,7 @@ impl Boundary {
                 corners.extend(common_points(first, second));
             }
         }
-        let inside = Inside::Caps { inner: inner.is_some() };
+        let inside = Interior::Caps { inner: inner.is_some() };
         Ok(Self { edges: circles.len(), circles, inside, corners })
     }
 
@@ -163,11 +163,11 @@ impl Boundary {
     /// Whether the point at `t` of a ray, which has these arcs, belongs to the region.
     fn holds(&self, (pole, across): (DVec3, DVec3), arcs: &[Arc], t: f64) -> bool {
         match &self.inside {
-            Inside::Caps { inner } => {
+            Interior::Caps { inner } => {
                 let (outer, inner) = arcs[..self.edges].split_at(self.edges - usize::from(*inner));
                 outer.iter().all(|arc| arc.holds(t)) && !inner.iter().any(|arc| arc.holds(t))
             }
-            Inside::Polygon(polygon) => {
+            Interior::Polygon(polygon) => {
                 let v = pole * t.cos() + across * t.sin();
                 v.z > 0.0 && polygon.contains(v.truncate())
             }
@@ -187,7 +187,7 @@ fn common_points(first: &Circle, second: &Circle) -> Vec<DVec3> {
     if along.is_finite() { vec![middle + axis * along, middle - axis * along] } else { Vec::new() }
 }
 
-fn polygon(corners: Vec<DVec3>) -> Result<Boundary, RegionError> {
+fn polygon(corners: Vec<DVec3>) -> Result<RegionBoundary, RegionError> {
     let plane: Vec<DVec2> = corners.iter().map(|v| v.truncate()).collect();
     let polygon = Polygon::new(plane.clone());
     refuse_crossing(polygon.crossing(true))?;
@@ -199,5 +199,10 @@ fn polygon(corners: Vec<DVec3>) -> Result<Boundary, RegionError> {
             circles.push(Circle { normal: normal.extend(0.0), cos: normal.dot(*a) });
         }
     }
-    Ok(Boundary { edges: circles.len(), circles, inside: Inside::Polygon(polygon), corners })
+    Ok(RegionBoundary {
+        edges: circles.len(),
+        circles,
+        inside: Interior::Polygon(polygon),
+        corners,
+    })
 }

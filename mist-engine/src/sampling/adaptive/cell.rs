@@ -6,15 +6,15 @@ use scattering::{
 };
 
 use super::{
-    Measured,
-    integrand::{Integrand, Places},
-    rays::{Ray, Rays},
+    MeasuredCell,
+    integrand::{Integrand, NodeDirections},
+    rays::{PolarRay, Rays},
     rule::{NODE, SIDE, WEIGHT, error, weighted},
 };
 
 /// A rectangle [s₀, s₁] × [u₀, u₁] of the unit square of one interval of one slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cell {
+pub(super) struct CubatureCell {
     pub(super) slice: usize,
     pub(super) interval: usize,
     pub(super) s: (f64, f64),
@@ -25,9 +25,9 @@ pub(super) struct Cell {
 pub(super) const NODES: usize = SIDE * SIDE;
 
 /// The rays on which the nodes of a cell lie.
-pub(super) type Fan = [Ray; SIDE];
+pub(super) type Fan = [PolarRay; SIDE];
 
-impl Cell {
+impl CubatureCell {
     /// The halves, across p or across t.
     pub(super) fn halves(self, along_p: bool) -> [Self; 2] {
         if along_p {
@@ -53,15 +53,15 @@ impl Cell {
     }
 
     /// The integral over the cell with its error.
-    pub(super) fn measure(self, fan: &Fan, integrand: &Integrand<'_>) -> Measured {
+    pub(super) fn measure(self, fan: &Fan, integrand: &Integrand<'_>) -> MeasuredCell {
         let mut values = [Mueller::ZERO; NODES];
         integrand.values(&self.nodes(fan), &mut values);
         judge(self, &values)
     }
 
     /// The directions of the nodes on their rays, with the solid angle per area of [−1, 1]².
-    pub(super) fn nodes(&self, fan: &Fan) -> Places<NODES> {
-        let mut at = Places::new();
+    pub(super) fn nodes(&self, fan: &Fan) -> NodeDirections<NODES> {
+        let mut at = NodeDirections::new();
         dispatch(Placing { cell: self, fan, at: &mut at });
         at
     }
@@ -69,15 +69,15 @@ impl Cell {
 
 /// The placing of nodes, ray by ray.
 struct Placing<'a> {
-    cell: &'a Cell,
+    cell: &'a CubatureCell,
     fan: &'a Fan,
-    at: &'a mut Places<NODES>,
+    at: &'a mut NodeDirections<NODES>,
 }
 
 impl LaneKernel for Placing<'_> {
     #[inline(always)]
     fn run<V: SimdLevel>(self, vectors: V) {
-        let Self { cell, fan, at: Places { v, weights } } = self;
+        let Self { cell, fan, at: NodeDirections { v, weights } } = self;
         let ((_, ds), (u, du)) = (half(cell.s), half(cell.u));
         let nodes = vectors.load(&NODE) * du + u;
         for (i, ray) in fan.iter().enumerate() {
@@ -96,17 +96,17 @@ fn half((from, to): (f64, f64)) -> (f64, f64) {
 }
 
 /// Integral and error from the values at the nodes, p slow and t fast.
-fn judge(cell: Cell, values: &[Mueller; NODES]) -> Measured {
-    let mut sums = Sums::default();
+fn judge(cell: CubatureCell, values: &[Mueller; NODES]) -> MeasuredCell {
+    let mut sums = RuleSums::default();
     dispatch(Summing { values, sums: &mut sums });
-    let Sums { matrix, along_p, along_t } = sums;
+    let RuleSums { matrix, along_p, along_t } = sums;
     let along = (along_p.largest(), along_t.largest());
-    Measured { cell, matrix, error: along_p + along_t, along_p: along.0 > along.1 }
+    MeasuredCell { cell, matrix, error: along_p + along_t, along_p: along.0 > along.1 }
 }
 
 /// What the rule makes of the values of a cell.
 #[derive(Default)]
-struct Sums {
+struct RuleSums {
     matrix: Mueller,
     /// The error of the sum along p of the sums along t.
     along_p: Mueller,
@@ -117,7 +117,7 @@ struct Sums {
 /// The sums, several elements at a time.
 struct Summing<'a> {
     values: &'a [Mueller; NODES],
-    sums: &'a mut Sums,
+    sums: &'a mut RuleSums,
 }
 
 impl LaneKernel for Summing<'_> {
@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn halves_cover_the_cell() {
-        let cell = Cell { slice: 0, interval: 1, s: (0.0, 1.0), u: (0.5, 1.0) };
+        let cell = CubatureCell { slice: 0, interval: 1, s: (0.0, 1.0), u: (0.5, 1.0) };
         let [left, right] = cell.halves(true);
         assert_eq!((left.s, right.s, left.u), ((0.0, 0.5), (0.5, 1.0), cell.u));
         let [low, high] = cell.halves(false);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::{cell::Cell, peaks::Peak, rays::Rays};
+use super::{cell::CubatureCell, peaks::Peak, rays::Rays};
 
 /// Longest first cell along a ray, in w, where t = ε sinh w.
 const LONGEST: f64 = 2.0;
@@ -23,12 +23,12 @@ const MOST_FIRST: usize = 20_000;
 impl Rays {
     /// The first cells: all intervals of all slices, cut into pieces along the rays and towards
     /// `peaks`.
-    pub(super) fn first_cells(&self, peaks: &[Peak]) -> Vec<Cell> {
+    pub(super) fn first_cells(&self, peaks: &[Peak]) -> Vec<CubatureCell> {
         let cells = self.even_cells();
         peaks.iter().fold(cells, |cells, peak| self.towards(peak, cells))
     }
 
-    fn even_cells(&self) -> Vec<Cell> {
+    fn even_cells(&self) -> Vec<CubatureCell> {
         let mut cells = Vec::new();
         for slice in 0..self.slices.len() {
             self.split(slice, (0.0, 1.0), 0, &mut cells);
@@ -39,7 +39,7 @@ impl Rays {
     /// The cells of a part of a slice: of parts of it in which the ends of intervals move by no
     /// more than FAR, for where an edge passes close to the pole, they run away within a small
     /// angle, and which hide nothing.
-    fn split(&self, slice: usize, s: (f64, f64), depth: usize, cells: &mut Vec<Cell>) {
+    fn split(&self, slice: usize, s: (f64, f64), depth: usize, cells: &mut Vec<CubatureCell>) {
         let middle = 0.5 * (s.0 + s.1);
         // The ends themselves may touch an edge.
         let [first, last] =
@@ -61,7 +61,7 @@ impl Rays {
             let begins_at_pole = at[1].get(interval).is_some_and(|w| w.0 == 0.0);
             for k in 0..pieces as usize {
                 let u = (k as f64 / pieces, (k + 1) as f64 / pieces);
-                let cell = Cell { slice, interval, s, u };
+                let cell = CubatureCell { slice, interval, s, u };
                 // Most of a peak is in the first of several pieces.
                 if k == 0 && pieces > 1.0 && begins_at_pole {
                     cells.extend(cell.halves(false));
@@ -74,7 +74,7 @@ impl Rays {
 
     /// The cells with those near to `peak` halved until they are not wider than the peak, and
     /// else than their distance from it.
-    fn towards(&self, peak: &Peak, mut cells: Vec<Cell>) -> Vec<Cell> {
+    fn towards(&self, peak: &Peak, mut cells: Vec<CubatureCell>) -> Vec<CubatureCell> {
         let mut done = Vec::new();
         while let Some(cell) = cells.pop() {
             let (middle, along_p, along_t) = self.extent(&cell);
@@ -90,7 +90,7 @@ impl Rays {
     }
 
     /// The middle of a cell and how far it reaches along p and along t.
-    fn extent(&self, cell: &Cell) -> (DVec3, f64, f64) {
+    fn extent(&self, cell: &CubatureCell) -> (DVec3, f64, f64) {
         let at = |s: f64, u: f64| DVec3::from(self.ray(cell.slice, cell.interval, s).at(u).0);
         let (s, u) = (0.5 * (cell.s.0 + cell.s.1), 0.5 * (cell.u.0 + cell.u.1));
         let along_p = at(cell.s.0, u).distance(at(cell.s.1, u));

@@ -10,16 +10,16 @@ use scattering::{
 use super::Estimate;
 use crate::{
     region::{Angles, Region, unit},
-    sampling::{seen_group, turn::Turn},
+    sampling::{seen_group, sensitivity_rotation::SensitivityRotation},
 };
 
 /// Unit vectors, component by component, with weights.
-pub(super) struct Places<const N: usize> {
+pub(super) struct NodeDirections<const N: usize> {
     pub(super) v: [[f64; N]; 3],
     pub(super) weights: [f64; N],
 }
 
-impl<const N: usize> Places<N> {
+impl<const N: usize> NodeDirections<N> {
     /// The direction of the pole, of no weight.
     pub(super) fn new() -> Self {
         Self { v: [[0.0; N], [0.0; N], [1.0; N]], weights: [0.0; N] }
@@ -36,7 +36,7 @@ pub(super) struct Integrand<'a> {
     model: &'a Model,
     incidence: &'a Incidence,
     basis: Basis,
-    turn: Turn,
+    turn: SensitivityRotation,
     flip: f64,
 }
 
@@ -48,13 +48,13 @@ impl<'a> Integrand<'a> {
         basis: Basis,
         region: &Region,
     ) -> Self {
-        let turn = Turn::towards(region.polarization_center());
+        let turn = SensitivityRotation::towards(region.polarization_center());
         let flip = if model.common().side.to_below() { -1.0 } else { 1.0 };
         Self { model, incidence, basis, turn, flip }
     }
 
     /// The values at `at` times the weights; zero on and below the horizon.
-    pub(super) fn values<const N: usize>(&self, at: &Places<N>, out: &mut [Mueller; N]) {
+    pub(super) fn values<const N: usize>(&self, at: &NodeDirections<N>, out: &mut [Mueller; N]) {
         let mut directions = [Direction::from_sin_cos((0.0, 1.0), (0.0, 1.0)); N];
         let mut turns = [[0.0; N]; 2];
         let (turn, seen) = (&self.turn, &mut directions);
@@ -94,8 +94,8 @@ impl<'a> Integrand<'a> {
 
 /// From unit vectors to directions, and the cosines and sines by which sensitivities are turned.
 struct Seeing<'a, const N: usize> {
-    at: &'a Places<N>,
-    turn: &'a Turn,
+    at: &'a NodeDirections<N>,
+    turn: &'a SensitivityRotation,
     directions: &'a mut [Direction; N],
     turns: &'a mut [[f64; N]; 2],
 }
@@ -118,7 +118,7 @@ impl<const N: usize> LaneKernel for Seeing<'_, N> {
 
 /// R(β)ᵀ M cos θ times the weights.
 struct Weighing<'a, const N: usize> {
-    at: &'a Places<N>,
+    at: &'a NodeDirections<N>,
     turns: &'a [[f64; N]; 2],
     flip: f64,
     out: &'a mut [Mueller; N],

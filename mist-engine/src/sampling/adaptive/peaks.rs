@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use scattering::{Mueller, lanes::WIDTH};
 
-use super::integrand::{Integrand, Places};
+use super::integrand::{Integrand, NodeDirections};
 
 /// A direction around which the integrand changes within an angle `width`, radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +69,7 @@ fn measured(integrand: &Integrand<'_>, at: DVec3) -> Peak {
         let (sin, cos) = (0.4 + TAU * k as f64 / AROUND as f64).sin_cos();
         q * cos + p * sin
     });
-    let mut places = Places::new();
+    let mut places = NodeDirections::new();
     for k in 0..PROBES {
         let (sin, cos) = (SMALLEST * RATIO.powi((k / AROUND) as i32)).sin_cos();
         let v = at * cos + around[k % AROUND] * sin;

@@ -10,9 +10,9 @@ use scattering::{
 };
 
 use super::{
-    boundary::{Boundary, Intervals, TINY},
+    boundary::{Intervals, RegionBoundary, TINY},
     peaks::Peak,
-    slice::{Slice, even},
+    slice::{AzimuthSlice, even},
 };
 use crate::region::{Region, RegionError};
 
@@ -24,13 +24,13 @@ pub(super) struct Rays {
     across: (DVec3, DVec3),
     /// What counts as near to the pole, rad: ε of t = ε sinh w.
     near: f64,
-    boundary: Boundary,
-    pub(super) slices: Vec<Slice>,
+    boundary: RegionBoundary,
+    pub(super) slices: Vec<AzimuthSlice>,
 }
 
 /// One interval of one ray.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ray {
+pub(super) struct PolarRay {
     pole: DVec3,
     across: DVec3,
     near: f64,
@@ -39,7 +39,7 @@ pub(super) struct Ray {
     per_s: f64,
 }
 
-impl Ray {
+impl PolarRay {
     /// The direction at u in 0..1 along the interval, and dΩ/(ds du); or those of several u.
     #[inline(always)]
     pub(super) fn at<R: Real>(&self, u: R) -> ([R; 3], R) {
@@ -65,7 +65,7 @@ impl Rays {
     ) -> Result<Self, RegionError> {
         let pole = center.at;
         let q = pole.any_orthonormal_vector();
-        let boundary = Boundary::new(&region.ordered(), supports)?;
+        let boundary = RegionBoundary::new(&region.ordered(), supports)?;
         let (across, near) = ((q, pole.cross(q)), center.width);
         let mut rays = Self { pole, across, near, boundary, slices: Vec::new() };
         rays.slices = rays.cut();
@@ -87,13 +87,13 @@ impl Rays {
     }
 
     /// One interval of the ray at s of a slice; an empty one if the ray has fewer.
-    pub(super) fn ray(&self, slice: usize, interval: usize, s: f64) -> Ray {
+    pub(super) fn ray(&self, slice: usize, interval: usize, s: f64) -> PolarRay {
         let (p, per_s) = self.slices[slice].azimuth(s);
         let across = self.direction(p);
         let intervals = self.boundary.intervals(self.pole, across);
         let (a, b) = intervals.get(interval).copied().unwrap_or((0.0, 0.0));
         let w = (self.stretched(a), self.stretched(b));
-        Ray { pole: self.pole, across, near: self.near, w, per_s }
+        PolarRay { pole: self.pole, across, near: self.near, w, per_s }
     }
 
     /// The direction of the ray of azimuth `p`, a quarter turn from the pole.
@@ -103,7 +103,7 @@ impl Rays {
     }
 
     /// The slices between the azimuths at which the intervals of a ray change.
-    fn cut(&self) -> Vec<Slice> {
+    fn cut(&self) -> Vec<AzimuthSlice> {
         let seen = |v: &DVec3| v.dot(self.across.1).atan2(v.dot(self.across.0)).rem_euclid(TAU);
         let mut ends: Vec<f64> = self.boundary.corners.iter().map(seen).collect();
         let touching =

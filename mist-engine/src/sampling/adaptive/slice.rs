@@ -13,7 +13,7 @@ const WIDEST: f64 = FRAC_PI_2;
 
 /// Azimuths between which the intervals of a ray change smoothly.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Slice {
+pub(super) struct AzimuthSlice {
     from: f64,
     to: f64,
     /// How far before it and behind it a ray touches a circle, rad, if any does.
@@ -21,7 +21,7 @@ pub(super) struct Slice {
 }
 
 /// A slice in parts that are not too wide.
-pub(super) fn even(from: f64, to: f64, touching: &[f64]) -> Vec<Slice> {
+pub(super) fn even(from: f64, to: f64, touching: &[f64]) -> Vec<AzimuthSlice> {
     let parts = ((to - from) / WIDEST - 1e-9).ceil().max(1.0);
     let at = |k: usize| from + (to - from) * k as f64 / parts;
     let nearest = |distance: &dyn Fn(&f64) -> f64| {
@@ -32,18 +32,18 @@ pub(super) fn even(from: f64, to: f64, touching: &[f64]) -> Vec<Slice> {
         let (from, to) = (at(k), at(k + 1));
         let touching =
             (!touching.is_empty()).then(|| (nearest(&|p| from - p), nearest(&|p| p - to)));
-        Slice { from, to, touching }
+        AzimuthSlice { from, to, touching }
     };
     (0..parts as usize).map(slice).collect()
 }
 
-impl Slice {
+impl AzimuthSlice {
     /// The azimuth at s in 0..1, and dp/ds.
     ///
     /// Ends at which a ray begins to touch a circle are approached with the square of s: there the
     /// interval grows like a square root of the azimuth, but like s.
     pub(super) fn azimuth(&self, s: f64) -> (f64, f64) {
-        let Slice { from, to, touching } = *self;
+        let AzimuthSlice { from, to, touching } = *self;
         if touching.is_none() {
             return (from + (to - from) * s, to - from);
         }

@@ -7,7 +7,7 @@ use scattering::{Mode, ParameterNode, models};
 use super::*;
 use crate::region::Angles;
 
-const DEMAND: Demand = Demand { tolerance: 1e-9, budget: 10_000_000 };
+const DEMAND: Accuracy = Accuracy { tolerance: 1e-9, budget: 10_000_000 };
 
 fn model(name: &str) -> Model {
     let class = &models::find(name).unwrap().class;
@@ -16,8 +16,8 @@ fn model(name: &str) -> Model {
 
 fn estimate(model: &Model, theta_i: f64, region: &Region, tolerance: f64) -> Estimate {
     let incidence = Incidence::new(theta_i, 0.0);
-    let demand = Demand { tolerance, ..DEMAND };
-    integrate(model, &incidence, Basis::Psps, region, &demand, &|| false).unwrap()
+    let accuracy = Accuracy { tolerance, ..DEMAND };
+    integrate(model, &incidence, Basis::Psps, region, &accuracy, &|| false).unwrap()
 }
 
 fn regions() -> Vec<Region> {
@@ -119,9 +119,9 @@ fn one_two_and_seven_threads_give_the_same_bits() {
 #[test]
 fn a_budget_that_does_not_suffice_is_an_error() {
     let rough = model("Microroughness_BRDF_Model");
-    let demand = Demand { tolerance: 1e-12, budget: 3_000 };
+    let accuracy = Accuracy { tolerance: 1e-12, budget: 3_000 };
     let incidence = Incidence::new(0.5, 0.0);
-    let refused = integrate(&rough, &incidence, Basis::Psps, &Region::Hemi, &demand, &|| false);
+    let refused = integrate(&rough, &incidence, Basis::Psps, &Region::Hemi, &accuracy, &|| false);
     match refused {
         Err(AdaptiveError::Budget { reached, evaluations, .. }) => {
             assert!(reached > 1e-12 && evaluations <= 3_000);

@@ -2,7 +2,7 @@
 
 use std::io::{Read, Seek};
 
-use mist_engine::{Control, material::Prepared};
+use mist_engine::{Control, material::PreparedMaterial};
 use rayon::prelude::*;
 use scattering::Mueller;
 
@@ -71,7 +71,7 @@ struct DifferenceTally {
 /// If the file is not a `.pbsdf` or the material has no such table, and on cancellation.
 pub fn compare<R: Read + Seek>(
     source: R,
-    material: &Prepared,
+    material: &PreparedMaterial,
     control: &Control,
 ) -> Result<PbsdfComparison, ExportError> {
     let mut file = TensorReader::open(source)?;

@@ -7,10 +7,10 @@ use mist_engine::{
     colour::{ColourRow, ColourTable},
     compile,
     material::{
-        Prepared,
+        PreparedMaterial,
         query::ColourNames,
-        results::{self, Columns},
-        table::{self, GridPatch, GridRequest, TableRequest, What, default_sampling},
+        results::{self, ResultColumns},
+        table::{self, GridPatch, GridRequest, TableRequest, TableDirections},
     },
 };
 use scattering::{Basis, Mode};
@@ -29,7 +29,7 @@ use crate::{
 pub(super) struct RingRun {
     pub(super) results: String,
     pub(super) table: ColourTable,
-    pub(super) prepared: Prepared,
+    pub(super) prepared: PreparedMaterial,
 }
 
 impl RingRun {
@@ -46,11 +46,11 @@ impl RingRun {
             let first = found.first();
             refused(first.map_or_else(String::new, |d| format!("its program: {}", d.message)))
         })?;
-        let prepared = Prepared::of_step(&job).map_err(|failure| refused(failure.to_string()))?;
+        let prepared = PreparedMaterial::of_step(&job).map_err(|failure| refused(failure.to_string()))?;
         let mut sink = MemorySink::default();
         let own = Control { cancel: control.cancel.clone(), progress: None };
         job.run(&mut sink, &own).map_err(|failure| refused(failure.to_string()))?;
-        let columns = Columns::parse("wl:nm", "f")?;
+        let columns = ResultColumns::parse("wl:nm", "f")?;
         let settings = ColourNames::default().settings(None)?;
         let incident = [1.0, 0.0, 0.0, 0.0];
         let table = results::table(&sink.results, &columns, name, &settings, (incident, "psps"))?;
@@ -65,7 +65,7 @@ impl RingRun {
 ///
 /// As the colour table of a material; if there are fewer than three nodes.
 pub fn table_of(
-    material: &Prepared,
+    material: &PreparedMaterial,
     filter: Option<SurfacePolarizer>,
     nodes: usize,
     wavelengths: &[f64],
@@ -80,13 +80,13 @@ pub fn table_of(
     let grid = GridRequest { thetai, thetas, phis: vec![0.0], patch: GridPatch::Ring };
     let request = TableRequest {
         material: String::new(),
-        what: What::Grid(grid),
+        what: TableDirections::Grid(grid),
         wavelengths: wavelengths.to_vec(),
         settings: ColourNames::default().settings(None)?,
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,
-        sampling: default_sampling(),
+        sampling: mist_engine::sampling::PlaneSampling::default(),
         limits: Limits::default(),
     };
     let own = Control { cancel: control.cancel.clone(), progress: None };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use mist_engine::colour::{ColourTable, Layout};
+use mist_engine::colour::{ColourTable, RowOrder};
 use mist_format::number::general;
 
 use super::{
@@ -49,7 +49,7 @@ pub(super) fn draw(
 /// The number of squares in a line: the fastest axis of a grid, or the rows of a list before its
 /// slowest column changes.
 fn across(table: &ColourTable) -> usize {
-    if let Layout::Grid { axes, .. } = &table.layout {
+    if let RowOrder::Grid { axes, .. } = &table.layout {
         return axes.last().map_or(1, |axis| axis.nodes.len()).max(1);
     }
     let slowest = |at: usize| column::patch_values(&table.rows[at])[0];

@@ -14,7 +14,7 @@ const ZERO: f64 = 1e-10;
 
 /// The turn towards a centre.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Turn {
+pub(crate) struct SensitivityRotation {
     center: DVec3,
 }
 
@@ -36,7 +36,7 @@ fn doubled<R: Real>(x: R, y: R) -> [R; 2] {
     [is_zero.select(x.splat(1.0), doubled[0]), is_zero.select(x.splat(0.0), doubled[1])]
 }
 
-impl Turn {
+impl SensitivityRotation {
     /// The turn towards the direction `center`.
     pub(crate) fn towards(center: Angles) -> Self {
         Self { center: unit(center) }
@@ -78,7 +78,7 @@ mod tests {
     fn doubled_angles_are_those_of_the_formula() {
         for c in [(0.3, 0.2), (1.2, -2.0), (0.8, 3.0)] {
             for v in [(0.5, 1.0), (1.5, -1.9), (0.05, 2.8), (0.8, 0.1), (0.8, -0.14159)] {
-                let [cos, sin] = Turn::towards(c).at(unit(v).to_array());
+                let [cos, sin] = SensitivityRotation::towards(c).at(unit(v).to_array());
                 let b = beta(unit(c), unit(v));
                 assert!((cos - (2.0 * b).cos()).abs() < 1e-13, "{c:?} {v:?}");
                 assert!((sin - (2.0 * b).sin()).abs() < 1e-13, "{c:?} {v:?}");
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn nothing_turns_at_the_centre_and_in_the_plane_of_the_normal() {
-        let turn = Turn::towards((0.7, 0.4));
+        let turn = SensitivityRotation::towards((0.7, 0.4));
         assert_eq!(turn.at(unit((0.7, 0.4)).to_array()), [1.0, 0.0]);
         let [cos, sin] = turn.at(unit((0.3, 0.4)).to_array());
         assert!((cos - 1.0).abs() < 1e-12 && sin.abs() < 1e-12);
@@ -96,9 +96,9 @@ mod tests {
 
     #[test]
     fn around_the_normal_the_azimuth_is_the_angle() {
-        let [cos, sin] = Turn::towards((0.0, 0.0)).at(unit((0.6, 1.1)).to_array());
+        let [cos, sin] = SensitivityRotation::towards((0.0, 0.0)).at(unit((0.6, 1.1)).to_array());
         assert!((cos - 2.2_f64.cos()).abs() < 1e-15 && (sin - 2.2_f64.sin()).abs() < 1e-15);
-        let [cos, sin] = Turn::towards((0.6, 1.1)).at([0.0, 0.0, 1.0]);
+        let [cos, sin] = SensitivityRotation::towards((0.6, 1.1)).at([0.0, 0.0, 1.0]);
         assert!((cos - 2.2_f64.cos()).abs() < 1e-15 && (sin + 2.2_f64.sin()).abs() < 1e-15);
     }
 }
