@@ -154,7 +154,11 @@ fn save(
     Ok(line)
 }
 
-fn compare(material: &PreparedMaterial, path: &Path, control: &Control) -> Result<String, CommandError> {
+fn compare(
+    material: &PreparedMaterial,
+    path: &Path,
+    control: &Control,
+) -> Result<String, CommandError> {
     let name = path.display();
     let file =
         File::open(path).map_err(|e| CommandError::Refused(format!("cannot read {name}: {e}")))?;

@@ -24,7 +24,7 @@ use crate::{
         VariableEntry,
     },
     quirk::{Quirk, dialect},
-    replay::ADAPTIVE,
+    sampling::IntegrationMode,
     scope::{SlotNames, SlotValues},
     sweep::{ForPlan, ListColumn, ListPlan, LoopPlan},
     uncertainty::ErrorColumns,
@@ -376,7 +376,9 @@ impl Compiler<'_> {
         };
         let numbers = || entries.iter().rev().filter(|entry| entry.slot.is_some());
         let mode = numbers().find(|entry| name(entry) == "integrationmode")?;
-        let is_adaptive = number(mode.slot).is_some_and(|mode| mode as i32 == ADAPTIVE);
+        let is_adaptive = number(mode.slot).is_some_and(|mode| {
+            IntegrationMode::decode(mode as i32) == Ok(IntegrationMode::Adaptive)
+        });
         let entry = numbers().find(|entry| name(entry) == "uncertainty")?;
         let value = number(entry.slot)?;
         if value == 0.0 || !(is_adaptive || self.varies(program, "integrationmode")) {

@@ -59,20 +59,10 @@ pub enum Region {
     },
 }
 
-/// Whether apertures have the outlines that their names promise, or NIST's.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Apertures {
-    /// Cones and the hemisphere, cut by the horizon and nothing else.
-    #[default]
-    Exact,
-    /// The polygons with `polygonsides` edges that NIST's program takes for them.
-    Nist,
-}
-
 /// A region that cannot be sampled.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RegionError {
-    /// There is no such way of sampling.
+    /// A value of `integrationmode` that stands for no sampling rule.
     #[error("integrationmode {0} is none of 1 to 6, 11 to 16 and 20")]
     Mode(i32),
     /// Two edges of a polygon cross; edge `k` runs to vertex `k`, counted from 1.
@@ -98,13 +88,11 @@ pub enum RegionError {
     PolygonSides(i32),
     /// An orthographic grid covers no more than a hemisphere around its axis.
     #[error(
-        "alpha = {alpha} rad is more than pi/2, which the grid of integrationmode {mode} does not reach: use 1 or 2"
+        "alpha = {alpha} rad is more than pi/2, which an orthographic grid (integrationmode 3, 6, 13, 16) does not reach: use 1 or 2"
     )]
     WideOrthographic {
         /// The half angle, radians.
         alpha: f64,
-        /// The mode asked for.
-        mode: i32,
     },
 }
 
@@ -145,7 +133,7 @@ impl Region {
         }
     }
 
-    /// Whether NIST's program takes a polygon for it ([`Apertures::Nist`]).
+    /// Whether NIST's program takes a polygon for it (`Outlines::Polygons` of the sampling).
     pub(crate) fn is_round(&self) -> bool {
         matches!(self, Self::Circle { .. } | Self::Hemi | Self::Annulus { .. })
     }

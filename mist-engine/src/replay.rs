@@ -19,7 +19,7 @@ use due::Due;
 use mist_format::{
     Diagnostic, Program,
     expr::{EvalError, Expr, Stack, Value},
-    program::SourceText,
+    program::{ApertureShape, SourceText},
 };
 use scattering::{Mode, Stokes};
 use sending::Sent;
@@ -31,15 +31,14 @@ use crate::{
     job::{ApertureSetting, IntegralPlan, VariableEntry},
     parameters::ModelParameters,
     quirk::{Quirk, dialect},
-    region::Apertures,
-    sampling::{Sampling, adaptive::Accuracy},
+    region::RegionError,
+    sampling::{
+        IntegrationMode, Outlines, PlaneSampling, SamplingRule, adaptive::Accuracy, truncated,
+    },
     scope::{Memo, SlotValues},
     step::{Listing, Step, StepIntegral},
     sweep::{EntryContent, LoopContext, Sweep},
 };
-
-/// The `integrationmode` of adaptive integrals.
-pub(crate) const ADAPTIVE: i32 = 20;
 
 /// `tolerance`, unless VARIABLES has it.
 const TOLERANCE: f64 = 1e-6;
@@ -326,22 +325,8 @@ impl<'j> Replay<'j> {
         let incident = self.incident()?;
         let min_samples = self.required(required.minsamples)?;
         let rotation = self.required(required.rotation)?;
-        let mode = self.required(required.integrationmode)? as i32;
-        let accuracy = (mode == ADAPTIVE).then(|| self.accuracy()).transpose()?;
-        let polygon_sides = self.required(required.polygonsides)? as i32;
-        let sampling = Sampling {
-            differential,
-            min_samples,
-            mode,
-            polygon_sides,
-            apertures: if Quirk::PolygonApertures.applies_in(job.options.mode) {
-                Apertures::Nist
-            } else {
-                Apertures::Exact
-            },
-            seed: job.options.seed,
-        };
-        let integrals = self.all_integrals((&sampling, accuracy), incident)?;
+        let rule = self.rule(differential, min_samples)?;
+        let integrals = self.all_integrals(&rule, incident)?;
         let values = self.read_values();
         let sweep = self.sweep.as_ref();
         Ok(Step {
@@ -350,8 +335,7 @@ impl<'j> Replay<'j> {
             theta_i,
             rotation,
             integrals,
-            sampling,
-            accuracy,
+            rule,
             incident,
             columns: sweep.map(Sweep::cells).unwrap_or_default(),
             values,
@@ -367,7 +351,7 @@ impl<'j> Replay<'j> {
     /// The integrals of this step, unless they wait for each other.
     fn all_integrals(
         &mut self,
-        (sampling, accuracy): (&Sampling, Option<Accuracy>),
+        rule: &Result<SamplingRule, RegionError>,
         incident: Stokes,
     ) -> Result<Arc<Vec<StepIntegral>>, Fault> {
         let job = self.job;
@@ -376,14 +360,14 @@ impl<'j> Replay<'j> {
         }
         if let Some(known) = &self.integrals
             && known.holds(&self.scope, &self.integrals_read)
-            && known.value.iter().all(|one| one.sampling == *sampling && one.accuracy == accuracy)
+            && known.value.iter().all(|one| rule.as_ref() == Ok(&one.rule))
             && self.incident_before == Some(incident)
         {
             return Ok(known.value.clone());
         }
         let mut integrals = Vec::with_capacity(job.integrals.len());
         for number in 0..job.integrals.len() {
-            integrals.push(self.integral(number, (sampling.clone(), accuracy), incident)?);
+            integrals.push(self.integral(number, rule, incident)?);
         }
         let value = Arc::new(integrals);
         self.incident_before = Some(incident);
@@ -408,8 +392,7 @@ impl<'j> Replay<'j> {
     /// have given.
     pub(crate) fn add_integral(&mut self, step: &mut Step) -> Result<(), Fault> {
         let number = step.integrals.len();
-        let integral =
-            self.integral(number, (step.sampling.clone(), step.accuracy), step.incident)?;
+        let integral = self.integral(number, &step.rule, step.incident)?;
         Arc::make_mut(&mut step.integrals).push(integral);
         Ok(())
     }
@@ -421,7 +404,41 @@ impl<'j> Replay<'j> {
             .ok_or_else(|| missing_required(&self.job.program, self.job.names.name(slot)))
     }
 
-    /// What an adaptive integral must reach, by `tolerance` and `maxevaluations`.
+    /// How the directions of the integrals are chosen, by `integrationmode`.
+    ///
+    /// The inner error is that of an unknown mode.
+    fn rule(
+        &self,
+        differential: f64,
+        min_samples: f64,
+    ) -> Result<Result<SamplingRule, RegionError>, Fault> {
+        let (required, options) = (&self.job.required, &self.job.options);
+        let mode = self.required(required.integrationmode)? as i32;
+        let (projection, is_random, is_normalized) = match IntegrationMode::decode(mode) {
+            Ok(IntegrationMode::Adaptive) => {
+                return Ok(Ok(SamplingRule::Adaptive(self.accuracy()?)));
+            }
+            Ok(IntegrationMode::Plane { projection, is_random, is_normalized }) => {
+                (projection, is_random, is_normalized)
+            }
+            Err(error) => return Ok(Err(error)),
+        };
+        let sides = self.required(required.polygonsides)? as i32;
+        let outlines = if Quirk::PolygonApertures.applies_in(options.mode) {
+            Outlines::Polygons { sides }
+        } else {
+            Outlines::Exact
+        };
+        let min_samples = truncated(min_samples);
+        let plane =
+            PlaneSampling { projection, differential, min_samples, is_normalized, outlines };
+        Ok(Ok(match is_random {
+            true => SamplingRule::MonteCarlo { plane, seed: options.seed },
+            false => SamplingRule::Grid(plane),
+        }))
+    }
+
+    /// The accuracy of adaptive integrals, by `tolerance` and `maxevaluations`.
     fn accuracy(&self) -> Result<Accuracy, Fault> {
         let required = &self.job.required;
         let number = |slot, default| self.scope.get(slot).map_or(default, Value::number);
@@ -471,10 +488,17 @@ impl<'j> Replay<'j> {
     fn integral(
         &mut self,
         number: usize,
-        (sampling, accuracy): (Sampling, Option<Accuracy>),
+        rule: &Result<SamplingRule, RegionError>,
         incident: Stokes,
     ) -> Result<StepIntegral, Fault> {
         let plan = &self.job.integrals[number];
+        let rule = match rule {
+            Ok(rule) => *rule,
+            Err(_) if plan.shape == ApertureShape::Differential => {
+                SamplingRule::Grid(PlaneSampling::default())
+            }
+            Err(error) => return Err(self.job.region_fault(number, error)),
+        };
         let mut aperture = ApertureBuilder::under(incident);
         for (at, setting) in plan.settings.iter().enumerate() {
             let slots = setting.expr.slots();
@@ -494,7 +518,7 @@ impl<'j> Replay<'j> {
             let known = self.settings[number][at].as_ref().expect("known by now");
             aperture.set(setting.key, &known.value, &setting.text)?;
         }
-        Ok(aperture.integral(plan, sampling, accuracy))
+        Ok(aperture.integral(plan, rule))
     }
 }
 

@@ -11,7 +11,7 @@ use std::{
 
 use parallel::{ParallelReplay, StepBatch};
 use reader::{StepReader, price};
-use scattering::{Defect, Notice};
+use scattering::{Defect, Mode, Notice};
 
 use crate::{
     Control, Failure, Job,
@@ -21,10 +21,9 @@ use crate::{
     limits::Meter,
     listing,
     output::{OutputStream, Outputs, Sink, TableLine, head},
-    region::Apertures,
     replay::Replay,
     share::Evaluator,
-    step::{Evaluated, Step, StepIntegral},
+    step::{Evaluated, Step},
     uncertainty::ErrorColumns,
 };
 
@@ -366,7 +365,10 @@ impl<'a> Runner<'a> {
         all: &[StepResult],
     ) -> Result<(), Failure> {
         self.summary.met.extend(self.shared.take_met());
-        if block.clone().flat_map(|step| &*step.integrals).any(is_cut_by_nist) {
+        let mut integrals = block.clone().flat_map(|step| &*step.integrals);
+        // NIST's program takes polygons for round apertures.
+        let is_sound = self.job.options.mode == Mode::Sound;
+        if is_sound && integrals.any(|integral| integral.region.is_round()) {
             self.summary.met.insert(Defect::PolygonHorizon.into());
         }
         if let Some(first) = block.nth(known) {
@@ -461,11 +463,6 @@ fn emit(
     }
     sink.step_done(step.index)?;
     Ok(())
-}
-
-/// Whether the aperture is the true one of a shape for which NIST's program takes a polygon.
-fn is_cut_by_nist(integral: &StepIntegral) -> bool {
-    integral.sampling.apertures == Apertures::Exact && integral.region.is_round()
 }
 
 /// A fault of the first step is a fault of the program; a later one ends the run.

@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use scattering::{Direction, geometry::is_above};
 
-use crate::region::{Apertures, AxisRotation, Polygon, Region, RegionError};
+use crate::region::{AxisRotation, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
 
 pub mod adaptive;
@@ -24,33 +24,19 @@ mod lifting;
 mod pattern;
 mod points;
 mod projection;
+mod rule;
 pub(crate) mod sensitivity_rotation;
 
 pub(crate) use chunk::{DirectionChunk, Scratch};
 pub use key::LayoutKey;
+pub use projection::Projection;
+pub(crate) use rule::IntegrationMode;
+pub use rule::{Outlines, PlaneSampling, SamplingRule};
 
 use chunk::seen_group;
 use lifting::{PointClassifier, UndecidedPoint};
 use pattern::PointPattern;
-use projection::Projection;
 use sensitivity_rotation::SensitivityRotation;
-
-/// What a program says about the sampling of its integrals.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sampling {
-    /// Solid angle per direction, sr.
-    pub differential: f64,
-    /// Directions in the cone around a region, at least; decimals are dropped.
-    pub min_samples: f64,
-    /// Grids 1–3, random points 4–6; 10 more for sums without normalization.
-    pub mode: i32,
-    /// Edges of the polygons that stand for circles, for [`Apertures::Nist`].
-    pub polygon_sides: i32,
-    /// The outlines of circles and hemispheres.
-    pub apertures: Apertures,
-    /// Selects the random points of modes 4–6.
-    pub seed: u64,
-}
 
 /// Points of the plane per chunk: the unit of work and of addition.
 const CHUNK: u64 = 512;
@@ -82,7 +68,7 @@ struct Plan {
     inside: Membership,
     turn: SensitivityRotation,
     scale: Scale,
-    apertures: Apertures,
+    outlines: Outlines,
 }
 
 /// What a direction of the cone must meet to belong to the region.
@@ -99,14 +85,18 @@ enum Membership {
 }
 
 impl Layout {
-    /// Lays out `region`.
+    /// Lays out `region` with a grid in `plane`, or with random points if there is a `seed`.
     ///
     /// # Errors
     ///
-    /// For modes that do not exist, for polygons that cross themselves or reach below the
-    /// horizon, and for what NIST's program never finishes.
-    pub fn new(region: &Region, sampling: &Sampling) -> Result<Self, RegionError> {
-        let layout = Self::planned(region, sampling)?;
+    /// For polygons that cross themselves or reach below the horizon, for cones that the projection
+    /// does not cover, and for polygons with a negative number of sides.
+    pub fn new(
+        region: &Region,
+        plane: &PlaneSampling,
+        seed: Option<u64>,
+    ) -> Result<Self, RegionError> {
+        let layout = Self::planned(region, plane, seed)?;
         layout.store();
         Ok(layout)
     }
@@ -116,8 +106,12 @@ impl Layout {
     /// # Errors
     ///
     /// As [`Layout::new`].
-    pub(crate) fn planned(region: &Region, sampling: &Sampling) -> Result<Self, RegionError> {
-        Ok(Self { plan: Plan::new(region, sampling)?, stored: OnceLock::new() })
+    pub(crate) fn planned(
+        region: &Region,
+        plane: &PlaneSampling,
+        seed: Option<u64>,
+    ) -> Result<Self, RegionError> {
+        Ok(Self { plan: Plan::new(region, plane, seed)?, stored: OnceLock::new() })
     }
 
     /// Stores the directions, unless there are too many.
@@ -129,18 +123,18 @@ impl Layout {
 
     /// About how many directions and vertices a layout has, before it is made.
     ///
-    /// Infinite or huge for extreme values of `differential`, `minsamples` and `polygonsides`.
-    pub fn estimate(region: &Region, sampling: &Sampling) -> f64 {
-        let sides = match (region, sampling.apertures) {
+    /// Infinite or huge for extreme values of `differential`, `min_samples` and `sides`.
+    pub fn estimate(region: &Region, plane: &PlaneSampling) -> f64 {
+        let sides = match (region, plane.outlines) {
             (Region::Polygon { vertices, .. }, _) => vertices.len() as f64,
-            (Region::Differential { .. }, _) | (_, Apertures::Exact) => 0.0,
-            (Region::Annulus { .. }, _) => 2.0 * f64::from(sampling.polygon_sides),
-            _ => f64::from(sampling.polygon_sides),
+            (Region::Differential { .. }, _) | (_, Outlines::Exact) => 0.0,
+            (Region::Annulus { .. }, Outlines::Polygons { sides }) => 2.0 * f64::from(sides),
+            (_, Outlines::Polygons { sides }) => f64::from(sides),
         };
-        let points = match (region, Projection::of_mode(sampling.mode)) {
-            (Region::Differential { .. }, _) | (_, None) => 1.0,
-            (_, Some(projection)) => {
-                let (step, radius) = grid(region, sampling, projection);
+        let points = match region {
+            Region::Differential { .. } => 1.0,
+            _ => {
+                let (step, radius) = grid(region, plane);
                 PI * (radius / step).powi(2)
             }
         };
@@ -189,27 +183,26 @@ impl Layout {
 }
 
 impl Plan {
-    fn new(region: &Region, sampling: &Sampling) -> Result<Self, RegionError> {
+    fn new(region: &Region, plane: &PlaneSampling, seed: Option<u64>) -> Result<Self, RegionError> {
         if let Region::Differential { center } = region {
             return Ok(Self::single(Direction::new(center.0, center.1)));
         }
-        let projection =
-            Projection::of_mode(sampling.mode).ok_or(RegionError::Mode(sampling.mode))?;
+        let PlaneSampling { projection, outlines, .. } = *plane;
         let turn = SensitivityRotation::towards(region.polarization_center());
-        let (region, apertures) = match sampling.apertures {
-            Apertures::Exact => (&region.ordered(), sampling.apertures),
-            Apertures::Nist => (region, sampling.apertures),
-        };
-        let (inside, projected) = match apertures {
-            Apertures::Nist => {
-                let outline = outline(region, sampling.polygon_sides)?;
-                (Membership::Polygon(outline.polygon), outline.projected_solid_angle)
+        let ordered;
+        let (region, inside, projected) = match outlines {
+            Outlines::Polygons { sides } => {
+                let outline = outline(region, sides)?;
+                (region, Membership::Polygon(outline.polygon), outline.projected_solid_angle)
             }
-            Apertures::Exact => (exact(region, sampling)?, region.projected_solid_angle()),
+            Outlines::Exact => {
+                ordered = region.ordered();
+                (&ordered, exact(&ordered, projection)?, ordered.projected_solid_angle())
+            }
         };
-        let (step, radius) = grid(region, sampling, projection);
-        let pattern = PointPattern::new(sampling, step, radius);
-        let scale = if sampling.mode / 10 == 0 {
+        let (step, radius) = grid(region, plane);
+        let pattern = PointPattern::new(step, radius, seed);
+        let scale = if plane.is_normalized {
             Scale::Normalized(projected)
         } else {
             Scale::Fixed(projection.area_per_area() * pattern.area_per_point())
@@ -221,7 +214,7 @@ impl Plan {
             other => other,
         };
         let frame = AxisRotation::new(region.cone().axis);
-        Ok(Self { pattern, projection, frame, inside, turn, scale, apertures })
+        Ok(Self { pattern, projection, frame, inside, turn, scale, outlines })
     }
 
     fn single(direction: Direction) -> Self {
@@ -232,7 +225,7 @@ impl Plan {
             inside: Membership::One(direction),
             turn: SensitivityRotation::towards((0.0, 0.0)),
             scale: Scale::Fixed(1.0),
-            apertures: Apertures::Exact,
+            outlines: Outlines::Exact,
         }
     }
 
@@ -274,9 +267,9 @@ impl Plan {
             (u, weight) = self.projection.lift_by_angles(plane);
             v = self.frame.turn(u.to_array()).into();
         }
-        let is_above = match self.apertures {
-            Apertures::Nist => v.z > 0.0,
-            Apertures::Exact => is_above(v.z),
+        let is_above = match self.outlines {
+            Outlines::Polygons { .. } => v.z > 0.0,
+            Outlines::Exact => is_above(v.z),
         };
         let belongs = is_above
             && match &self.inside {
@@ -304,7 +297,7 @@ fn projected(v: DVec3) -> DVec2 {
 const AXIS: f64 = 1e-12;
 
 /// The test that makes a grid on the cone of `region` a grid on the region itself.
-fn exact(region: &Region, sampling: &Sampling) -> Result<Membership, RegionError> {
+fn exact(region: &Region, projection: Projection) -> Result<Membership, RegionError> {
     match region {
         Region::Polygon { vertices, .. } => {
             above_horizon(vertices)?;
@@ -314,11 +307,11 @@ fn exact(region: &Region, sampling: &Sampling) -> Result<Membership, RegionError
             Ok(Membership::Polygon(polygon))
         }
         Region::Circle { alpha, .. } => {
-            reachable(*alpha, sampling.mode)?;
+            reachable(*alpha, projection)?;
             Ok(Membership::Cone)
         }
         Region::Annulus { outer_alpha, inner_center, inner_alpha, .. } => {
-            reachable(*outer_alpha, sampling.mode)?;
+            reachable(*outer_alpha, projection)?;
             let axis = crate::region::unit(*inner_center);
             Ok(Membership::Outside { axis, cos: inner_alpha.cos() })
         }
@@ -327,31 +320,31 @@ fn exact(region: &Region, sampling: &Sampling) -> Result<Membership, RegionError
     }
 }
 
-fn reachable(alpha: f64, mode: i32) -> Result<(), RegionError> {
-    let orthographic = Projection::of_mode(mode) == Some(Projection::Orthographic);
-    if orthographic && alpha.abs() > FRAC_PI_2 {
-        return Err(RegionError::WideOrthographic { alpha: alpha.abs(), mode });
+fn reachable(alpha: f64, projection: Projection) -> Result<(), RegionError> {
+    if projection == Projection::Orthographic && alpha.abs() > FRAC_PI_2 {
+        return Err(RegionError::WideOrthographic { alpha: alpha.abs() });
     }
     Ok(())
 }
 
 /// Step and radius of the grid in the plane.
-fn grid(region: &Region, sampling: &Sampling, projection: Projection) -> (f64, f64) {
-    let solid_angle = match sampling.apertures {
-        Apertures::Exact => region.ordered().cone().solid_angle,
-        Apertures::Nist => region.cone().solid_angle,
+fn grid(region: &Region, plane: &PlaneSampling) -> (f64, f64) {
+    let solid_angle = match plane.outlines {
+        Outlines::Exact => region.ordered().cone().solid_angle,
+        Outlines::Polygons { .. } => region.cone().solid_angle,
     };
-    let least = (f64::from(truncated(sampling.min_samples)).sqrt() + 0.9999999).floor().powi(2);
-    let mut per_point = sampling.differential;
+    let least = (f64::from(plane.min_samples).sqrt() + 0.9999999).floor().powi(2);
+    let mut per_point = plane.differential;
     if solid_angle / per_point < least {
         per_point = solid_angle / least;
     }
     let alpha = (1.0 - solid_angle / TAU).acos();
+    let projection = plane.projection;
     ((per_point / projection.area_per_area()).sqrt(), projection.radius(alpha))
 }
 
 /// The whole part of `x` as C's (int) gives it on x86: i32::MIN where it does not fit.
-fn truncated(x: f64) -> i32 {
+pub(crate) fn truncated(x: f64) -> i32 {
     let whole = x.trunc();
     if whole >= f64::from(i32::MIN) && whole <= f64::from(i32::MAX) {
         whole as i32

@@ -12,8 +12,8 @@ use smol_str::SmolStr;
 
 use crate::{
     parameters::ModelParameters,
-    region::Region,
-    sampling::{LayoutKey, Sampling, adaptive::Accuracy},
+    region::{Region, RegionError},
+    sampling::{LayoutKey, SamplingRule},
 };
 
 /// One combination of loop values, ready to be evaluated.
@@ -28,10 +28,9 @@ pub struct Step {
     pub rotation: f64,
     /// One per integral, in the order of the program; shared with the step before if equal.
     pub integrals: Arc<Vec<StepIntegral>>,
-    /// How its integrals are sampled.
-    pub(crate) sampling: Sampling,
-    /// How accurate its integrals must be, if they are adaptive.
-    pub(crate) accuracy: Option<Accuracy>,
+    /// How the directions of its integrals are chosen; an error for a wrong `integrationmode`,
+    /// which integrals of one direction do not need.
+    pub(crate) rule: Result<SamplingRule, RegionError>,
     /// The incident light of integrals without INPOL.
     pub(crate) incident: Stokes,
     /// What the columns of the loops show.
@@ -52,10 +51,8 @@ pub struct Step {
 pub struct StepIntegral {
     /// The solid angle.
     pub region: Region,
-    /// How it is sampled.
-    pub sampling: Sampling,
-    /// How accurate it must be, if it is adaptive; then it is not sampled.
-    pub accuracy: Option<Accuracy>,
+    /// How its directions are chosen; without effect for one direction.
+    pub rule: SamplingRule,
     /// Sensitivity of the detector.
     pub pol: Stokes,
     /// Incident light.
@@ -65,10 +62,7 @@ pub struct StepIntegral {
 impl StepIntegral {
     /// What tells its directions from those of other integrals.
     pub(crate) fn layout_key(&self) -> LayoutKey {
-        match &self.accuracy {
-            Some(accuracy) => LayoutKey::adaptive(&self.region, accuracy),
-            None => LayoutKey::new(&self.region, &self.sampling),
-        }
+        LayoutKey::new(&self.region, &self.rule)
     }
 }
 

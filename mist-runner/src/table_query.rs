@@ -5,7 +5,7 @@ use mist_engine::{
     material::{
         MaterialError,
         query::{self, ColourNames},
-        table::{GridRequest, TableDirections, TableRequest, default_sampling},
+        table::{GridRequest, TableDirections, TableRequest},
     },
 };
 
@@ -69,7 +69,7 @@ impl TableQuery {
             incident: query::stokes(&text(&self.incident, "1,0,0,0"))?,
             stokes: self.stokes,
             basis: query::basis(&text(&self.basis, "psps"))?,
-            sampling: default_sampling(),
+            sampling: mist_engine::sampling::PlaneSampling::default(),
             limits: Limits::default(),
         })
     }

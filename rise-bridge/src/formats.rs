@@ -60,7 +60,12 @@ pub struct ColourWriter {
 pub struct MaterialWriter {
     /// Fields of the request that the format has, besides those that all have.
     pub options: &'static [&'static str],
-    write: fn(&PreparedMaterial, &ExportRequest, &mut dyn Write, &Control) -> Result<String, ExportError>,
+    write: fn(
+        &PreparedMaterial,
+        &ExportRequest,
+        &mut dyn Write,
+        &Control,
+    ) -> Result<String, ExportError>,
 }
 
 impl MaterialWriter {

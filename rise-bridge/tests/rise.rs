@@ -9,9 +9,9 @@ use mist_engine::{
     Control, Files, Limits, MemoryFiles,
     material::{
         Material,
-        table::{Patch, PatchRow, TableDirections, TableRequest, default_sampling, mueller},
+        table::{Patch, PatchRow, TableDirections, TableRequest, mueller},
     },
-    sampling::Sampling,
+    sampling::PlaneSampling,
 };
 use rise_bridge::rise::{
     product::{self, BridgeFiles, BridgeOptions},
@@ -62,10 +62,10 @@ fn tables_are_read_back_and_are_nists_integrals_over_rings() {
         stokes: false,
         basis: Basis::Psps,
         // As the program says.
-        sampling: Sampling {
+        sampling: PlaneSampling {
             differential: 1.5_f64.to_radians().powi(2),
-            min_samples: 400.0,
-            ..default_sampling()
+            min_samples: 400,
+            ..PlaneSampling::default()
         },
         limits: Limits::default(),
     };

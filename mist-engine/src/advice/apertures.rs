@@ -64,10 +64,8 @@ impl<'j> Apertures<'j> {
         self.steps += 1.0;
         for (at, (integral, seen)) in step.integrals.iter().zip(&mut self.seen).enumerate() {
             // Adaptive integrals are not laid out.
-            if integral.accuracy.is_some() {
-                continue;
-            }
-            let estimate = Layout::estimate(&integral.region, &integral.sampling);
+            let Some((plane, _)) = integral.rule.plane() else { continue };
+            let estimate = Layout::estimate(&integral.region, plane);
             self.directions += estimate;
             seen.most = seen.most.max(estimate);
             seen.count(integral, estimate).map_err(|error| self.job.region_fault(at, &error))?;
@@ -153,18 +151,19 @@ impl<'j> Apertures<'j> {
 impl Seen {
     /// Counts the directions of a layout that was not seen before.
     fn count(&mut self, integral: &StepIntegral, estimate: f64) -> Result<(), RegionError> {
+        let Some((plane, seed)) = integral.rule.plane() else { return Ok(()) };
         let is_area = !matches!(integral.region, Region::Differential { .. });
         if !is_area || estimate > COUNTED || self.layouts.len() >= LAYOUTS {
             return Ok(());
         }
-        if !self.layouts.insert(LayoutKey::new(&integral.region, &integral.sampling)) {
+        if !self.layouts.insert(LayoutKey::new(&integral.region, &integral.rule)) {
             return Ok(());
         }
-        let layout = Layout::new(&integral.region, &integral.sampling)?;
+        let layout = Layout::new(&integral.region, plane, seed)?;
         let few = Few {
             directions: layout.directions(),
             solid_angle: integral.region.cone().solid_angle,
-            differential: integral.sampling.differential,
+            differential: plane.differential,
         };
         if self.fewest.is_none_or(|fewest| few.directions < fewest.directions) {
             self.fewest = Some(few);

@@ -227,8 +227,9 @@ mod tests {
         Control,
         material::{
             Material,
-            table::{Patch, PatchRow, TableDirections, TableRequest, default_sampling, table},
+            table::{Patch, PatchRow, TableDirections, TableRequest, table},
         },
+        sampling::PlaneSampling,
     };
 
     fn settings(filters: Vec<Filter>) -> ColourSettings {
@@ -268,7 +269,7 @@ mod tests {
                 incident: [1.0, 0.3, 0.1, 0.0],
                 stokes: true,
                 basis: Basis::Psps,
-                sampling: default_sampling(),
+                sampling: PlaneSampling::default(),
                 limits: crate::Limits::default(),
             };
             let table = table(&glass(), &request, &Control::default()).unwrap();

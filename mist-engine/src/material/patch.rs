@@ -14,7 +14,7 @@ use scattering::{
 use super::table::Patch;
 use crate::{
     region::{Angles, Region, RegionError, unit},
-    sampling::{Layout, Sampling, Scale, Scratch, sensitivity_rotation::SensitivityRotation},
+    sampling::{Layout, PlaneSampling, Scale, Scratch, sensitivity_rotation::SensitivityRotation},
 };
 
 /// Directions that are evaluated at a time.
@@ -58,7 +58,7 @@ impl Probes {
         &mut self,
         center: Angles,
         patch: &Patch,
-        sampling: &Sampling,
+        plane: &PlaneSampling,
     ) -> Result<(), RegionError> {
         let rad = f64::to_radians;
         let region = match patch {
@@ -79,11 +79,11 @@ impl Probes {
                 polarization_center: center,
             },
         };
-        self.add_region(&region, sampling)
+        self.add_region(&region, plane)
     }
 
-    fn add_region(&mut self, region: &Region, sampling: &Sampling) -> Result<(), RegionError> {
-        let layout = Layout::new(region, sampling)?;
+    fn add_region(&mut self, region: &Region, plane: &PlaneSampling) -> Result<(), RegionError> {
+        let layout = Layout::new(region, plane, None)?;
         let start = self.weights.count();
         let mut scratch = Scratch::default();
         for k in 0..layout.chunks() {

@@ -24,9 +24,9 @@ use crate::{
         fold::{coloured, interpolation},
     },
     integrate::integrate,
-    region::{Apertures, Region},
+    region::Region,
     sampling::{
-        self, Sampling,
+        self, PlaneSampling,
         adaptive::{self, Accuracy},
     },
 };
@@ -54,7 +54,7 @@ pub struct TableRequest {
     /// The polarization basis.
     pub basis: Basis,
     /// How cones, annuli and polygons are sampled.
-    pub sampling: Sampling,
+    pub sampling: PlaneSampling,
     /// What it may cost.
     pub limits: Limits,
 }
@@ -102,7 +102,7 @@ pub enum GridPatch {
     /// A cone with this half-angle, degrees.
     Circle(f64),
     /// The node's Voronoi cell.
-    PolarCell,
+    Cell,
     /// The average over all azimuths between the neighbours; `phis` has one node.
     Ring,
 }
@@ -131,18 +131,6 @@ pub enum Patch {
     Ring(f64, f64),
     /// A polygon of (thetas, phis), with straight edges in the projection.
     Polygon(Vec<(f64, f64)>),
-}
-
-/// 0.5° squared and at least 100 directions, exact apertures.
-pub fn default_sampling() -> Sampling {
-    Sampling {
-        differential: 0.5_f64.to_radians().powi(2),
-        min_samples: 100.0,
-        mode: 2,
-        polygon_sides: 360,
-        apertures: Apertures::Exact,
-        seed: 1,
-    }
 }
 
 /// The colour table of `material`.
@@ -415,7 +403,7 @@ impl<'a> TableComputation<'a> {
             let matrix = match adaptive {
                 Ok(estimate) => estimate.matrix,
                 Err(_) => {
-                    let layout = sampling::Layout::new(&hemi, &self.request.sampling)
+                    let layout = sampling::Layout::new(&hemi, &self.request.sampling, None)
                         .map_err(|error| MaterialError::Patch { number: 1, error })?;
                     integrate(model, &incidence, basis, &layout, &stop)
                         .ok_or(MaterialError::Cancelled)?
@@ -499,7 +487,7 @@ fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, Materi
                 _ => Patch::Point,
             };
             match grid.patch {
-                GridPatch::PolarCell if !empty => {
+                GridPatch::Cell if !empty => {
                     probes.add_cell(&PolarCell { theta, phi: rad(*phi), center });
                 }
                 GridPatch::Ring if !empty => probes.add_ring(theta),
@@ -603,7 +591,7 @@ fn patch_name(what: &TableDirections) -> colour::RowPatch {
         TableDirections::Grid(grid) => match grid.patch {
             GridPatch::Point => colour::RowPatch::Point,
             GridPatch::Circle(alpha) => colour::RowPatch::Circle(alpha),
-            GridPatch::PolarCell => colour::RowPatch::PolarCell,
+            GridPatch::Cell => colour::RowPatch::Cell,
             GridPatch::Ring => colour::RowPatch::Ring,
         },
         TableDirections::List(list) => match list.first().map(|place| &place.patch) {

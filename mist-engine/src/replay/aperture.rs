@@ -11,7 +11,7 @@ use crate::{
     fault::{Fault, fault},
     job::{ApertureParameter, IntegralPlan},
     region::Region,
-    sampling::{Sampling, adaptive::Accuracy},
+    sampling::SamplingRule,
     step::StepIntegral,
 };
 
@@ -57,12 +57,7 @@ impl ApertureBuilder {
     }
 
     /// The integral that `plan` makes of them.
-    pub(super) fn integral(
-        self,
-        plan: &IntegralPlan,
-        sampling: Sampling,
-        accuracy: Option<Accuracy>,
-    ) -> StepIntegral {
+    pub(super) fn integral(self, plan: &IntegralPlan, rule: SamplingRule) -> StepIntegral {
         let region = match plan.shape {
             ApertureShape::Differential => Region::Differential { center: self.center },
             ApertureShape::Circle => Region::around(self.center, self.alpha),
@@ -78,7 +73,7 @@ impl ApertureBuilder {
             }
         };
         let pol = self.pol.unwrap_or(Stokes::UNPOLARIZED);
-        StepIntegral { region, sampling, accuracy, pol, inpol: self.inpol }
+        StepIntegral { region, rule, pol, inpol: self.inpol }
     }
 }
 

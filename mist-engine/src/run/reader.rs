@@ -102,11 +102,11 @@ pub(super) fn price(job: &Job, step: &Step) -> Result<f64, Failure> {
     let limit = job.options.limits.directions;
     let mut cost = 0.0;
     for (integral, plan) in step.integrals.iter().zip(&job.integrals) {
-        if integral.accuracy.is_some() {
+        let Some((plane, _)) = integral.rule.plane() else {
             cost += ADAPTIVE_EVALUATIONS;
             continue;
-        }
-        let estimate = Layout::estimate(&integral.region, &integral.sampling);
+        };
+        let estimate = Layout::estimate(&integral.region, plane);
         if estimate > limit {
             return Err(Failure::Limit(format!(
                 "{} would have {estimate:.3e} directions, more than {limit:e}: \

@@ -24,10 +24,10 @@ mod balance;
 mod boundary;
 mod cell;
 mod first;
+mod gauss;
 mod integrand;
 mod peaks;
 mod rays;
-mod rule;
 mod slice;
 
 use cell::{CubatureCell, NODES};

@@ -1,8 +1,7 @@
 //! What tells one layout from another.
 
-use crate::region::{Apertures, Region};
-
-use super::{Sampling, adaptive::Accuracy};
+use super::{Outlines, PlaneSampling, SamplingRule, adaptive::Accuracy};
+use crate::region::Region;
 
 /// Equal for layouts with the same directions: the bits of all numbers that define them.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -11,28 +10,31 @@ pub struct LayoutKey {
 }
 
 impl LayoutKey {
-    /// The key of the layout of `region`.
-    pub fn new(region: &Region, sampling: &Sampling) -> Self {
+    /// The key of `region` with this rule; a layout and an adaptive integral never share one.
+    pub fn new(region: &Region, rule: &SamplingRule) -> Self {
         let mut bits = shape(region);
-        if matches!(region, Region::Differential { .. }) {
-            return Self { bits };
+        match rule {
+            SamplingRule::Adaptive(Accuracy { tolerance, budget }) => {
+                bits.extend([tolerance.to_bits(), *budget]);
+            }
+            _ if matches!(region, Region::Differential { .. }) => {}
+            SamplingRule::Grid(plane) => bits.extend(numbers(plane, None)),
+            SamplingRule::MonteCarlo { plane, seed } => bits.extend(numbers(plane, Some(*seed))),
         }
-        bits.extend([sampling.differential.to_bits(), sampling.min_samples.to_bits()]);
-        bits.push(u64::from(sampling.mode.cast_unsigned()));
-        match sampling.apertures {
-            Apertures::Exact => bits.push(u64::MAX),
-            Apertures::Nist => bits.push(u64::from(sampling.polygon_sides.cast_unsigned())),
-        }
-        bits.push(sampling.seed);
         Self { bits }
     }
+}
 
-    /// The key of adaptive integrals over `region`; no layout has it.
-    pub fn adaptive(region: &Region, accuracy: &Accuracy) -> Self {
-        let mut bits = shape(region);
-        bits.extend([accuracy.tolerance.to_bits(), accuracy.budget]);
-        Self { bits }
-    }
+/// The numbers of a plane and of its points.
+fn numbers(plane: &PlaneSampling, seed: Option<u64>) -> [u64; 6] {
+    let PlaneSampling { projection, differential, min_samples, is_normalized, outlines } = *plane;
+    let mode = 2 * projection as u64 + u64::from(is_normalized);
+    let sides = match outlines {
+        Outlines::Exact => u64::MAX,
+        Outlines::Polygons { sides } => u64::from(sides.cast_unsigned()),
+    };
+    let min_samples = u64::from(min_samples.cast_unsigned());
+    [differential.to_bits(), min_samples, mode, sides, u64::from(seed.is_some()), seed.unwrap_or(0)]
 }
 
 /// The numbers of a region.

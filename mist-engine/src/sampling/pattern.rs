@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::{Sampling, points::PlanePoints, truncated};
+use super::{points::PlanePoints, truncated};
 
 /// Where the points of a disk lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,12 +18,12 @@ pub(super) enum PointPattern {
 }
 
 impl PointPattern {
-    /// The pattern of a mode: a grid for 1–3, random points for 4–6.
-    pub(super) fn new(sampling: &Sampling, step: f64, radius: f64) -> Self {
-        if sampling.mode % 10 > 3 {
+    /// A grid of this step in a disk, or as many random points as it has if there is a `seed`.
+    pub(super) fn new(step: f64, radius: f64, seed: Option<u64>) -> Self {
+        if let Some(seed) = seed {
             let count = truncated(PI * radius * radius / (step * step));
             let count = u64::try_from(count).unwrap_or(0);
-            return Self::Random { count, seed: sampling.seed, radius };
+            return Self::Random { count, seed, radius };
         }
         let most = truncated(2.0 * radius / step + 0.5) / 2;
         Self::Grid { step, most, radius }

@@ -3,14 +3,15 @@
 use glam::{DVec2, DVec3};
 use scattering::lanes::Real;
 
-/// How a point at the distance ρ from the origin becomes a polar angle t.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Projection {
-    /// Modes 1 and 4: t = ρ.
+/// A projection of the plane onto the sphere: a point at the distance ρ from the origin gets the
+/// polar angle t.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Projection {
+    /// t = ρ.
     Equidistant,
-    /// Modes 2 and 5: 1 − cos t = ρ², equal areas stay equal.
+    /// 1 − cos t = ρ²: equal areas stay equal.
     EqualArea,
-    /// Modes 3 and 6: sin t = ρ.
+    /// sin t = ρ.
     Orthographic,
 }
 
@@ -19,16 +20,6 @@ pub(super) enum Projection {
 const DELICATE: f64 = 1e-9;
 
 impl Projection {
-    /// The projection of a value of `integrationmode`.
-    pub(super) fn of_mode(mode: i32) -> Option<Self> {
-        match mode % 10 {
-            1 | 4 => Some(Self::Equidistant),
-            2 | 5 => Some(Self::EqualArea),
-            3 | 6 => Some(Self::Orthographic),
-            _ => None,
-        }
-    }
-
     /// Solid angle per area of the plane at the centre.
     pub(super) fn area_per_area(self) -> f64 {
         if self == Self::EqualArea { 2.0 } else { 1.0 }
@@ -103,10 +94,12 @@ impl Projection {
 mod tests {
     use super::*;
 
+    const ALL: [Projection; 3] =
+        [Projection::Equidistant, Projection::EqualArea, Projection::Orthographic];
+
     #[test]
     fn both_ways_to_lift_a_point_agree() {
-        for mode in [1, 2, 3] {
-            let projection = Projection::of_mode(mode).unwrap();
+        for projection in ALL {
             for (x, y) in [(0.0, 0.0), (0.1, -0.2), (-0.7, 0.3), (0.5, 0.8), (0.0, -0.9)] {
                 let (u, w) = projection.lift(x, y);
                 let u = DVec3::from_array(u);
@@ -119,17 +112,9 @@ mod tests {
 
     #[test]
     fn the_radius_is_where_the_rim_of_the_cone_lies() {
-        for mode in [1, 2, 3] {
-            let projection = Projection::of_mode(mode).unwrap();
+        for projection in ALL {
             let (u, _) = projection.lift(projection.radius(0.8), 0.0);
             assert!((u[2] - 0.8_f64.cos()).abs() < 1e-15);
-        }
-    }
-
-    #[test]
-    fn modes_that_do_not_exist_have_no_projection() {
-        for mode in [0, 7, 10, 17, -1, 20] {
-            assert_eq!(Projection::of_mode(mode), None);
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::{
     parameters::Fingerprint,
     region::{Region, RegionError},
     sampling::{
-        Layout, LayoutKey,
+        Layout, LayoutKey, SamplingRule,
         adaptive::{self, Accuracy, AdaptiveError},
     },
     step::{Evaluated, Step, StepIntegral},
@@ -65,9 +65,17 @@ enum TaskDirections {
 impl TaskDirections {
     /// Where `integral` collects light, unless that is one direction.
     fn area(integral: &StepIntegral) -> Result<Self, RegionError> {
-        Ok(match integral.accuracy {
-            Some(accuracy) => Self::Adaptive(Arc::new((integral.region.clone(), accuracy))),
-            None => Self::Area(Arc::new(Layout::planned(&integral.region, &integral.sampling)?)),
+        let region = &integral.region;
+        Ok(match integral.rule {
+            SamplingRule::Adaptive(accuracy) => {
+                Self::Adaptive(Arc::new((region.clone(), accuracy)))
+            }
+            SamplingRule::Grid(plane) => {
+                Self::Area(Arc::new(Layout::planned(region, &plane, None)?))
+            }
+            SamplingRule::MonteCarlo { plane, seed } => {
+                Self::Area(Arc::new(Layout::planned(region, &plane, Some(seed))?))
+            }
         })
     }
 
@@ -90,7 +98,7 @@ struct MuellerResult {
 impl MuellerResult {
     fn evaluated(&self, integral: &StepIntegral) -> Evaluated {
         let (pol, inpol) = (&integral.pol, &integral.inpol);
-        let error = match (&self.error, integral.accuracy) {
+        let error = match (&self.error, integral.rule.accuracy()) {
             (Some(error), _) => adaptive::contracted_error(error, pol, inpol),
             (None, Some(_)) => 0.0,
             (None, None) => f64::NAN,
@@ -438,13 +446,14 @@ impl<'a> Evaluator<'a> {
                 text.push('\n');
             };
             // The region was integrated over before without an error.
-            match integral.accuracy {
-                Some(accuracy) => {
-                    let region = (&integral.region, &accuracy);
+            match &integral.rule {
+                SamplingRule::Adaptive(accuracy) => {
+                    let region = (&integral.region, accuracy);
                     adaptive_samples(model, &incidence, basis, region, light, &mut write);
                 }
-                None => {
-                    let layout = Layout::new(&integral.region, &integral.sampling);
+                rule => {
+                    let Some((plane, seed)) = rule.plane() else { continue };
+                    let layout = Layout::new(&integral.region, plane, seed);
                     let Ok(layout) = layout else { continue };
                     samples(model, &incidence, basis, &layout, light, &mut write);
                 }

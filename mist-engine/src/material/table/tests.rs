@@ -1,7 +1,10 @@
 //! Tables against what is known of them.
 
 use super::*;
-use crate::material::{Material, query::ColourNames};
+use crate::{
+    material::{Material, query::ColourNames},
+    sampling::PlaneSampling,
+};
 
 use scattering::Mode;
 
@@ -20,7 +23,7 @@ fn request(what: TableDirections) -> TableRequest {
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,
-        sampling: default_sampling(),
+        sampling: PlaneSampling::default(),
         limits: Limits::default(),
     }
 }

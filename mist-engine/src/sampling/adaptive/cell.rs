@@ -7,9 +7,9 @@ use scattering::{
 
 use super::{
     MeasuredCell,
+    gauss::{NODE, SIDE, WEIGHT, error, weighted},
     integrand::{Integrand, NodeDirections},
     rays::{PolarRay, Rays},
-    rule::{NODE, SIDE, WEIGHT, error, weighted},
 };
 
 /// A rectangle [s₀, s₁] × [u₀, u₁] of the unit square of one interval of one slice.

@@ -5,9 +5,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use scattering::{Mode, ParameterNode, models};
 
 use super::*;
-use crate::region::Angles;
+use crate::{
+    region::Angles,
+    sampling::{Layout, PlaneSampling},
+};
 
-const DEMAND: Accuracy = Accuracy { tolerance: 1e-9, budget: 10_000_000 };
+const ACCURACY: Accuracy = Accuracy { tolerance: 1e-9, budget: 10_000_000 };
 
 fn model(name: &str) -> Model {
     let class = &models::find(name).unwrap().class;
@@ -16,7 +19,7 @@ fn model(name: &str) -> Model {
 
 fn estimate(model: &Model, theta_i: f64, region: &Region, tolerance: f64) -> Estimate {
     let incidence = Incidence::new(theta_i, 0.0);
-    let accuracy = Accuracy { tolerance, ..DEMAND };
+    let accuracy = Accuracy { tolerance, ..ACCURACY };
     integrate(model, &incidence, Basis::Psps, region, &accuracy, &|| false).unwrap()
 }
 
@@ -71,15 +74,8 @@ fn a_fine_grid_agrees_for_a_polarizing_model() {
     let (incidence, basis) = (Incidence::new(0.5, 0.0), Basis::Psps);
     // Away from the specular peak, which no grid resolves.
     let region = Region::Circle { center: (0.7, 2.1), alpha: 0.4 };
-    let sampling = super::super::Sampling {
-        differential: 2e-6,
-        min_samples: 1.0,
-        mode: 2,
-        polygon_sides: 0,
-        apertures: crate::region::Apertures::Exact,
-        seed: 0,
-    };
-    let layout = super::super::Layout::new(&region, &sampling).unwrap();
+    let plane = PlaneSampling { differential: 2e-6, min_samples: 1, ..PlaneSampling::default() };
+    let layout = Layout::new(&region, &plane, None).unwrap();
     let grid = crate::integrate::integrate(&rough, &incidence, basis, &layout, &|| false).unwrap();
     let adaptive = estimate(&rough, 0.5, &region, 1e-9);
     // The grid has 2.5e5 points and errors near 1e-6.

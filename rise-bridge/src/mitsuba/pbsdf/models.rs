@@ -17,7 +17,11 @@ pub const STOCK_WAVELENGTHS: usize = 5;
 ///
 /// As [`Bands::new`]; if the material is anisotropic, if a wavelength is not a whole number up to
 /// 65535, and with `stock` if there are not five.
-pub fn bands(material: &PreparedMaterial, wavelengths: &[f64], stock: bool) -> Result<Bands, ExportError> {
+pub fn bands(
+    material: &PreparedMaterial,
+    wavelengths: &[f64],
+    stock: bool,
+) -> Result<Bands, ExportError> {
     let count = wavelengths.len();
     if stock && count != STOCK_WAVELENGTHS {
         let problem = format!(

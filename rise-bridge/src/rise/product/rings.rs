@@ -10,7 +10,7 @@ use mist_engine::{
         PreparedMaterial,
         query::ColourNames,
         results::{self, ResultColumns},
-        table::{self, GridPatch, GridRequest, TableRequest, TableDirections},
+        table::{self, GridPatch, GridRequest, TableDirections, TableRequest},
     },
 };
 use scattering::{Basis, Mode};
@@ -46,7 +46,8 @@ impl RingRun {
             let first = found.first();
             refused(first.map_or_else(String::new, |d| format!("its program: {}", d.message)))
         })?;
-        let prepared = PreparedMaterial::of_step(&job).map_err(|failure| refused(failure.to_string()))?;
+        let prepared =
+            PreparedMaterial::of_step(&job).map_err(|failure| refused(failure.to_string()))?;
         let mut sink = MemorySink::default();
         let own = Control { cancel: control.cancel.clone(), progress: None };
         job.run(&mut sink, &own).map_err(|failure| refused(failure.to_string()))?;
