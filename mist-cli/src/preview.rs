@@ -6,8 +6,8 @@ use mist_engine::material::query::{self, ColourNames};
 use mist_runner::files::{AtomicFile, DiskFiles};
 use pictures::image::{Image, PictureFormat};
 use preview::{
-    Environment, Film, Lamp, Polarization, Scene, Shape, Sky, brightest, mesh::Mesh, picture,
-    side_by_side, spectral_exr,
+    BodyShape, Environment, Lamp, Polarization, RenderedFilm, Scene, Sky, brightest, mesh::Mesh,
+    picture, side_by_side, spectral_exr,
 };
 use spectra::{ColourPlan, ColourSettings, Grid};
 
@@ -146,7 +146,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), CommandError> {
 impl PreviewArgs {
     fn image(
         &self,
-        film: &Film,
+        film: &RenderedFilm,
         plan: &ColourPlan,
         filter: Polarization,
     ) -> Result<Image, CommandError> {
@@ -219,16 +219,16 @@ impl PreviewArgs {
         }
     }
 
-    fn body(&self) -> Result<Shape, CommandError> {
+    fn body(&self) -> Result<BodyShape, CommandError> {
         match self.shape.as_str() {
-            "sphere" => return Ok(Shape::Sphere),
-            "torus" => return Ok(Shape::Mesh(Mesh::torus(192))),
-            "knot" => return Ok(Shape::Mesh(Mesh::knot(96))),
+            "sphere" => return Ok(BodyShape::Sphere),
+            "torus" => return Ok(BodyShape::Mesh(Mesh::torus(192))),
+            "knot" => return Ok(BodyShape::Mesh(Mesh::knot(96))),
             _ => {}
         }
         if let Some(angle) = self.shape.strip_prefix("plane:") {
             return match angle.parse::<f64>() {
-                Ok(angle) if angle.abs() < 90.0 => Ok(Shape::Plane(angle.to_radians())),
+                Ok(angle) if angle.abs() < 90.0 => Ok(BodyShape::Plane(angle.to_radians())),
                 _ => Err(CommandError::Refused(format!(
                     "--shape plane:ANGLE is below 90, not {angle}"
                 ))),
@@ -251,7 +251,7 @@ impl PreviewArgs {
                 )));
             }
         };
-        mesh.map(Shape::Mesh)
+        mesh.map(BodyShape::Mesh)
             .map_err(|error| CommandError::Refused(format!("{}: {error}", self.shape)))
     }
 

@@ -4,7 +4,7 @@ use spectra::Xyz;
 
 /// A rendered picture: XYZ of the four Stokes components per pixel, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Film {
+pub struct RenderedFilm {
     /// Columns and rows.
     pub size: [usize; 2],
     /// XYZ of I, Q, U and V; Y = 1 is a white diffuser that faces a lamp of irradiance 1.

@@ -38,12 +38,12 @@ mod sky;
 mod spectral;
 mod surface_point;
 
-pub use film::Film;
+pub use film::RenderedFilm;
 pub use picture::{Polarization, brightest, picture, side_by_side};
 pub use render::render;
 pub use scene::{Lamp, LampBasis, Scene};
 pub use shade::shade;
-pub use shape::Shape;
+pub use shape::BodyShape;
 pub use sky::{Environment, Sky};
 pub use spectral::spectral_exr;
 pub use surface_point::{DistantLamps, SurfacePoint};

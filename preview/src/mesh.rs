@@ -4,7 +4,7 @@ use std::{f64::consts::TAU, io::Cursor};
 
 use glam::{DMat3, DVec3, dvec3};
 
-use crate::ray::{Ray, SurfaceHit};
+use crate::ray::{SceneRay, SurfaceHit};
 
 mod ply;
 
@@ -28,7 +28,7 @@ pub enum MeshError {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Triangle {
+struct MeshTriangle {
     corners: [DVec3; 3],
     normals: [DVec3; 3],
 }
@@ -36,7 +36,7 @@ struct Triangle {
 /// A body of triangles that fills the unit sphere.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    triangles: Vec<Triangle>,
+    triangles: Vec<MeshTriangle>,
     nodes: Vec<BoxNode>,
 }
 
@@ -78,9 +78,9 @@ impl Mesh {
             Some(normals) => normals.to_vec(),
             None => smooth(&points, faces),
         };
-        let triangles: Vec<Triangle> = faces
+        let triangles: Vec<MeshTriangle> = faces
             .iter()
-            .map(|face| Triangle {
+            .map(|face| MeshTriangle {
                 corners: face.map(|i| points[i]),
                 normals: face.map(|i| normals[i]),
             })
@@ -161,7 +161,7 @@ impl Mesh {
     }
 
     /// The nearest triangle that `ray` meets, from either side.
-    pub(crate) fn hit(&self, ray: Ray) -> Option<SurfaceHit> {
+    pub(crate) fn hit(&self, ray: SceneRay) -> Option<SurfaceHit> {
         let inverse = ray.along.recip();
         let mut nearest: Option<SurfaceHit> = None;
         let mut waiting = vec![0];
@@ -196,7 +196,7 @@ impl Mesh {
         }
         let axis = (high - low).max_position();
         let middle = part.len() / 2;
-        let place = |triangle: &Triangle| triangle.corners.iter().map(|p| p[axis]).sum::<f64>();
+        let place = |triangle: &MeshTriangle| triangle.corners.iter().map(|p| p[axis]).sum::<f64>();
         part.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
         self.grow(from, from + middle);
         self.nodes[index].at = self.nodes.len();
@@ -207,7 +207,7 @@ impl Mesh {
 
 impl BoxNode {
     /// Whether the ray crosses the box before `limit`.
-    fn is_met(&self, ray: &Ray, inverse: DVec3, limit: f64) -> bool {
+    fn is_met(&self, ray: &SceneRay, inverse: DVec3, limit: f64) -> bool {
         let a = (self.low - ray.from) * inverse;
         let b = (self.high - ray.from) * inverse;
         let near = a.min(b).max_element().max(0.0);
@@ -215,7 +215,7 @@ impl BoxNode {
     }
 }
 
-impl Triangle {
+impl MeshTriangle {
     /// Twice the area, along the normal.
     fn area(&self) -> DVec3 {
         let [a, b, c] = self.corners;
@@ -223,7 +223,7 @@ impl Triangle {
     }
 
     /// T. Möller and B. Trumbore, Fast, minimum storage ray–triangle intersection (1997).
-    fn hit(&self, ray: &Ray) -> Option<SurfaceHit> {
+    fn hit(&self, ray: &SceneRay) -> Option<SurfaceHit> {
         let [a, b, c] = self.corners;
         let (edge1, edge2) = (b - a, c - a);
         let p = ray.along.cross(edge2);
@@ -288,8 +288,8 @@ mod tests {
 
     const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
-    fn down(x: f64, y: f64) -> Ray {
-        Ray { from: dvec3(x, y, 10.0), along: -DVec3::Z }
+    fn down(x: f64, y: f64) -> SceneRay {
+        SceneRay { from: dvec3(x, y, 10.0), along: -DVec3::Z }
     }
 
     #[test]

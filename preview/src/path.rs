@@ -9,8 +9,8 @@ use spectra::Xyz;
 use crate::{
     frame::SurfaceFrame,
     random::SampleRandom,
-    ray::{Ray, SurfaceHit},
-    response::Response,
+    ray::{SceneRay, SurfaceHit},
+    response::NormalResponse,
     rotation::StokesRotation,
     scene::{LampBasis, Scene},
     surface_point::{DistantLamps, SurfacePoint},
@@ -74,7 +74,7 @@ pub(crate) struct RowPaths {
 impl RowPaths {
     /// The light paths to the pixels of row `y`, counted from the top; `responses` has one entry per
     /// lamp or is empty.
-    pub(crate) fn trace(scene: &Scene, responses: &[Option<Response>], y: usize) -> Self {
+    pub(crate) fn trace(scene: &Scene, responses: &[Option<NormalResponse>], y: usize) -> Self {
         let mut row = Self::default();
         for x in 0..scene.size[0] {
             for sample in 0..scene.samples {
@@ -118,7 +118,7 @@ impl RowPaths {
     fn sample(
         &mut self,
         scene: &Scene,
-        responses: &[Option<Response>],
+        responses: &[Option<NormalResponse>],
         [x, y]: [usize; 2],
         random: SampleRandom,
     ) {
@@ -127,7 +127,7 @@ impl RowPaths {
         let unit = 2.0 * HALF_VIEW / width.min(height);
         let across = (x as f64 + dx - 0.5 * width) * unit;
         let up = (0.5 * height - y as f64 - dy) * unit;
-        let ray = Ray { from: DVec3::new(across, up, FAR), along: -TO_CAMERA };
+        let ray = SceneRay { from: DVec3::new(across, up, FAR), along: -TO_CAMERA };
         let Some(point) = scene.shape.hit(ray).and_then(FramedHit::new) else { return };
         let FramedHit { hit, frame } = &point;
         let weight = PI / scene.samples as f64;

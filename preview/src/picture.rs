@@ -3,7 +3,7 @@
 use pictures::image::{Encoding, Image, ImageError};
 use spectra::{ColourPlan, Xyz};
 
-use crate::film::Film;
+use crate::film::RenderedFilm;
 
 /// The filter before the camera, or the property of polarization that is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +47,7 @@ impl Polarization {
 }
 
 /// Y of the brightest pixel behind the filter; 1 is a white diffuser that faces a lamp.
-pub fn brightest(film: &Film, filter: Polarization) -> f64 {
+pub fn brightest(film: &RenderedFilm, filter: Polarization) -> f64 {
     film.pixels.iter().map(|pixel| filter.filtered(*pixel).y).fold(0.0, f64::max)
 }
 
@@ -57,7 +57,7 @@ pub fn brightest(film: &Film, filter: Polarization) -> f64 {
 ///
 /// If the film has no pixels.
 pub fn picture(
-    film: &Film,
+    film: &RenderedFilm,
     plan: &ColourPlan,
     filter: Polarization,
     exposure: f64,

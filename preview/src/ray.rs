@@ -7,7 +7,7 @@ const CLEAR: f64 = 1e-6;
 
 /// A half line.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ray {
+pub(crate) struct SceneRay {
     pub(crate) from: DVec3,
     /// Unit vector.
     pub(crate) along: DVec3,
@@ -26,7 +26,7 @@ pub(crate) struct SurfaceHit {
 
 impl SurfaceHit {
     /// The ray that starts at this point in the direction `along`.
-    pub(crate) fn leaving(&self, along: DVec3) -> Ray {
-        Ray { from: self.point + CLEAR * self.true_normal, along }
+    pub(crate) fn leaving(&self, along: DVec3) -> SceneRay {
+        SceneRay { from: self.point + CLEAR * self.true_normal, along }
     }
 }

@@ -13,9 +13,9 @@ use spectra::{ColourPlan, ColourSettings};
 
 use crate::{
     evaluate::{colours, finite, models, plan, spectra},
-    film::Film,
+    film::RenderedFilm,
     path::RowPaths,
-    response::Response,
+    response::NormalResponse,
     scene::{Lamp, Scene},
 };
 
@@ -31,7 +31,7 @@ pub fn render(
     wavelengths: &[f64],
     settings: ColourSettings,
     control: &Control,
-) -> Result<Film, MaterialError> {
+) -> Result<RenderedFilm, MaterialError> {
     let plan = plan(wavelengths, settings)?;
     let models = models(material, wavelengths)?;
     let light = Stokes(scene.light);
@@ -56,11 +56,11 @@ pub fn render(
             Ok((finite(pixels, y)?, kept))
         })
         .collect::<Result<(Vec<_>, Vec<Vec<f32>>), MaterialError>>()?;
-    Ok(Film { size: scene.size, pixels: rows.0.concat(), spectra: rows.1.concat() })
+    Ok(RenderedFilm { size: scene.size, pixels: rows.0.concat(), spectra: rows.1.concat() })
 }
 
 /// For each lamp in one direction its response as a function of the normal.
-fn responses(scene: &Scene, models: &[Model], plan: &ColourPlan) -> Vec<Option<Response>> {
+fn responses(scene: &Scene, models: &[Model], plan: &ColourPlan) -> Vec<Option<NormalResponse>> {
     if scene.exact || scene.spectra {
         return Vec::new();
     }
@@ -69,7 +69,7 @@ fn responses(scene: &Scene, models: &[Model], plan: &ColourPlan) -> Vec<Option<R
     let most = scene.size[0] * scene.size[1] * scene.samples / 8;
     let response = |lamp: &Lamp| {
         (lamp.radius == 0.0).then(|| {
-            Response::new(lamp.toward, most, &|normals: &[DVec3]| {
+            NormalResponse::new(lamp.toward, most, &|normals: &[DVec3]| {
                 let row = RowPaths::over_normals(scene, lamp.toward, normals);
                 let spectra = spectra(&row, models, light, normals.len());
                 colours(&spectra, models.len(), plan)

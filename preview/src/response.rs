@@ -38,7 +38,7 @@ type StokesXyz = [Xyz; 4];
 
 /// The function of the normal for one lamp.
 #[derive(Debug)]
-pub(crate) struct Response {
+pub(crate) struct NormalResponse {
     toward: DVec3,
     /// Trees of squares, row by row; the first square of a tree is its root.
     trees: Vec<Vec<MapSquare>>,
@@ -62,7 +62,7 @@ struct OpenSquare {
     values: Option<[StokesXyz; 9]>,
 }
 
-impl Response {
+impl NormalResponse {
     /// Tabulates the function for a lamp in the direction `toward`; `evaluate` gives its values at
     /// normals, without the cosines, and is called for about `most` normals at most.
     pub(crate) fn new(
@@ -103,7 +103,7 @@ impl Response {
     }
 }
 
-/// Builds the trees of a [`Response`].
+/// Builds the trees of a [`NormalResponse`].
 struct TreeBuilder<'a, F> {
     toward: DVec3,
     squares: usize,
@@ -275,7 +275,8 @@ mod tests {
     #[test]
     fn values_between_are_as_near_as_stated_and_few_samples_are_evaluated() {
         let toward = DVec3::new(0.3, 0.6, 0.8).normalize();
-        let response = Response::new(toward, 1 << 19, &|normals: &[DVec3]| lobe(normals, toward));
+        let response =
+            NormalResponse::new(toward, 1 << 19, &|normals: &[DVec3]| lobe(normals, toward));
         let (mut asked, mut known) = (0, 0);
         for k in 0..40_000 {
             let [x, y] = [k % 200, k / 200].map(|i| (f64::from(i) + 0.37) / 100.0 - 1.0);
@@ -301,7 +302,7 @@ mod tests {
 
     #[test]
     fn a_small_picture_is_evaluated_without_a_table() {
-        let response = Response::new(DVec3::Z, 1000, &|_: &[DVec3]| unreachable!());
+        let response = NormalResponse::new(DVec3::Z, 1000, &|_: &[DVec3]| unreachable!());
         assert_eq!(response.at(DVec3::Z), None);
     }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::{shape::Shape, sky::Sky};
+use crate::{shape::BodyShape, sky::Sky};
 
 /// A distant lamp: a disc of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub enum LampBasis {
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The body; it fills the unit sphere.
-    pub shape: Shape,
+    pub shape: BodyShape,
     /// The lamps.
     pub lamps: Vec<Lamp>,
     /// Stokes vector of their light; its first component is 1.

@@ -4,12 +4,12 @@ use glam::DVec3;
 
 use crate::{
     mesh::Mesh,
-    ray::{Ray, SurfaceHit},
+    ray::{SceneRay, SurfaceHit},
 };
 
 /// A body in the unit sphere.
 #[derive(Clone, Debug)]
-pub enum Shape {
+pub enum BodyShape {
     /// The sphere of radius 0.95.
     Sphere,
     /// A square of side 1.8, seen at this polar angle (rad); it leans back.
@@ -21,9 +21,9 @@ pub enum Shape {
 const RADIUS: f64 = 0.95;
 const HALF_SIDE: f64 = 0.9;
 
-impl Shape {
+impl BodyShape {
     /// The nearest point at which `ray` meets the body.
-    pub(crate) fn hit(&self, ray: Ray) -> Option<SurfaceHit> {
+    pub(crate) fn hit(&self, ray: SceneRay) -> Option<SurfaceHit> {
         match self {
             Self::Sphere => sphere(ray),
             Self::Plane(tilt) => plane(ray, *tilt),
@@ -40,7 +40,7 @@ impl Shape {
     }
 }
 
-fn sphere(Ray { from, along }: Ray) -> Option<SurfaceHit> {
+fn sphere(SceneRay { from, along }: SceneRay) -> Option<SurfaceHit> {
     let half = from.dot(along);
     let root = (half * half - from.length_squared() + RADIUS * RADIUS).sqrt();
     let distance = -half - root;
@@ -52,7 +52,7 @@ fn sphere(Ray { from, along }: Ray) -> Option<SurfaceHit> {
     })
 }
 
-fn plane(Ray { from, along }: Ray, tilt: f64) -> Option<SurfaceHit> {
+fn plane(SceneRay { from, along }: SceneRay, tilt: f64) -> Option<SurfaceHit> {
     let normal = DVec3::new(0.0, tilt.sin(), tilt.cos());
     let up = DVec3::new(0.0, tilt.cos(), -tilt.sin());
     let distance = -from.dot(normal) / along.dot(normal);
@@ -70,20 +70,20 @@ fn plane(Ray { from, along }: Ray, tilt: f64) -> Option<SurfaceHit> {
 mod tests {
     use super::*;
 
-    fn down(x: f64, y: f64) -> Ray {
-        Ray { from: DVec3::new(x, y, 10.0), along: -DVec3::Z }
+    fn down(x: f64, y: f64) -> SceneRay {
+        SceneRay { from: DVec3::new(x, y, 10.0), along: -DVec3::Z }
     }
 
     #[test]
     fn a_ray_meets_the_near_side_of_the_sphere_or_nothing() {
-        let hit = Shape::Sphere.hit(down(0.3, 0.4)).unwrap();
+        let hit = BodyShape::Sphere.hit(down(0.3, 0.4)).unwrap();
         assert!((hit.point.length() - RADIUS).abs() < 1e-14 && hit.point.z > 0.0);
-        assert!(Shape::Sphere.hit(down(0.8, 0.8)).is_none());
+        assert!(BodyShape::Sphere.hit(down(0.8, 0.8)).is_none());
     }
 
     #[test]
     fn a_tilted_plane_is_foreshortened() {
-        let tilted = Shape::Plane(60_f64.to_radians());
+        let tilted = BodyShape::Plane(60_f64.to_radians());
         assert!(tilted.hit(down(0.0, 0.44)).is_some());
         assert!(tilted.hit(down(0.0, 0.46)).is_none());
         assert!(tilted.hit(down(0.89, 0.0)).is_some());

@@ -11,14 +11,14 @@ use exr::prelude::{
 };
 use pictures::image::ImageError;
 
-use crate::film::Film;
+use crate::film::RenderedFilm;
 
 /// The bytes of a file with the spectra of `film` at `wavelengths` (nm).
 ///
 /// # Errors
 ///
 /// For a film without spectra.
-pub fn spectral_exr(film: &Film, wavelengths: &[f64]) -> Result<Vec<u8>, ImageError> {
+pub fn spectral_exr(film: &RenderedFilm, wavelengths: &[f64]) -> Result<Vec<u8>, ImageError> {
     let malformed = |problem: String| ImageError::Malformed { format: "EXR", problem };
     let bands = wavelengths.len();
     let [width, height] = film.size;

@@ -10,7 +10,8 @@ use mist_engine::{
 };
 use pictures::image::{Encoding, Image};
 use preview::{
-    Environment, Film, Lamp, LampBasis, Scene, Shape, Sky, mesh::Mesh, render, spectral_exr,
+    BodyShape, Environment, Lamp, LampBasis, RenderedFilm, Scene, Sky, mesh::Mesh, render,
+    spectral_exr,
 };
 use scattering::Mode;
 use spectra::ColourSettings;
@@ -30,7 +31,7 @@ fn settings() -> ColourSettings {
     names.settings(None).unwrap()
 }
 
-fn scene(shape: Shape, lamps: Vec<Lamp>) -> Scene {
+fn scene(shape: BodyShape, lamps: Vec<Lamp>) -> Scene {
     Scene {
         shape,
         lamps,
@@ -45,12 +46,12 @@ fn scene(shape: Shape, lamps: Vec<Lamp>) -> Scene {
     }
 }
 
-fn film(material: &PreparedMaterial, scene: &Scene) -> Film {
+fn film(material: &PreparedMaterial, scene: &Scene) -> RenderedFilm {
     render(material, scene, &WAVELENGTHS, settings(), &Control::default()).unwrap()
 }
 
 /// Y of the four Stokes components in the middle of the picture.
-fn middle(film: &Film) -> [f64; 4] {
+fn middle(film: &RenderedFilm) -> [f64; 4] {
     let [width, height] = film.size;
     film.pixels[width * (height / 2) + width / 2].map(|xyz| xyz.y)
 }
@@ -62,14 +63,14 @@ fn degrees(angle: f64) -> f64 {
 #[test]
 fn a_white_surface_that_faces_the_lamp_has_the_value_one() {
     let lamp = Lamp { toward: DVec3::Z, radius: 0.0, irradiance: 1.0 };
-    let [i, q, u, v] = middle(&film(&white(), &scene(Shape::Plane(0.0), vec![lamp])));
+    let [i, q, u, v] = middle(&film(&white(), &scene(BodyShape::Plane(0.0), vec![lamp])));
     // The spectrum is summed in another order than that of the white.
     assert!((i - 1.0).abs() < 1e-12 && q == 0.0 && u == 0.0 && v == 0.0, "{i} {q} {u} {v}");
 }
 
 #[test]
 fn a_white_surface_under_the_sky_alone_has_the_value_of_the_sky() {
-    let sky = Scene { sky: Sky::Uniform(0.5), ..scene(Shape::Plane(0.3), Vec::new()) };
+    let sky = Scene { sky: Sky::Uniform(0.5), ..scene(BodyShape::Plane(0.3), Vec::new()) };
     // Every sample of a white surface has the same value.
     assert!((middle(&film(&white(), &sky))[0] - 0.5).abs() < 1e-12);
 }
@@ -83,7 +84,7 @@ fn a_sky_that_is_bright_on_one_side_lights_what_turns_there() {
         let scene = Scene {
             sky: Sky::Map(Environment::new(&picture, 0.8)),
             samples: 4096,
-            ..scene(Shape::Plane(degrees(tilt)), Vec::new())
+            ..scene(BodyShape::Plane(degrees(tilt)), Vec::new())
         };
         // The part of a half space that a plane sees: (1 + cos of the angle to the zenith)/2.
         let expected = 0.8 * 0.5 * (1.0 + degrees(tilt).sin());
@@ -99,7 +100,7 @@ fn light_in_the_mirror_of_glass_at_brewsters_angle_is_horizontal() {
     let tilt = 1.5_f64.atan();
     // The plane leans back, so the mirror of the view lies above, in the plane x = 0.
     let lamp = Lamp::at(2.0 * tilt, degrees(90.0), 0.0, 1.0);
-    let [i, q, u, v] = middle(&film(&material(glass), &scene(Shape::Plane(tilt), vec![lamp])));
+    let [i, q, u, v] = middle(&film(&material(glass), &scene(BodyShape::Plane(tilt), vec![lamp])));
     assert!(i > 0.01, "{i}");
     for (found, expected) in [(q / i, 1.0), (u / i, 0.0), (v / i, 0.0)] {
         assert!((found - expected).abs() < 1e-9, "{q} {u} {v} of {i}");
@@ -115,7 +116,7 @@ fn a_filter_sees_a_turned_camera_as_a_turned_filter() {
         let lamp = Lamp::at(degrees(50.0), degrees(azimuth), 0.0, 1.0);
         middle(&film(
             &metal,
-            &Scene { light: [1.0, 0.3, 0.4, 0.5], ..scene(Shape::Plane(0.0), vec![lamp]) },
+            &Scene { light: [1.0, 0.3, 0.4, 0.5], ..scene(BodyShape::Plane(0.0), vec![lamp]) },
         ))
     };
     let ([i, q, u, v], [i2, q2, u2, v2]) = (turned(10.0), turned(40.0));
@@ -132,7 +133,10 @@ fn horizontal_light_is_perpendicular_to_a_vertical_plane_of_incidence() {
     let seen = |light_basis| {
         let lamp = Lamp::at(degrees(50.0), degrees(90.0), 0.0, 1.0);
         let light = [1.0, 0.6, 0.0, 0.5];
-        middle(&film(&metal, &Scene { light, light_basis, ..scene(Shape::Plane(0.0), vec![lamp]) }))
+        middle(&film(
+            &metal,
+            &Scene { light, light_basis, ..scene(BodyShape::Plane(0.0), vec![lamp]) },
+        ))
     };
     let (plane, horizontal) = (seen(LampBasis::PlaneOfIncidence), seen(LampBasis::Horizontal));
     for (a, b) in plane.iter().zip(horizontal) {
@@ -148,9 +152,9 @@ fn light_between_points_only_adds_and_only_where_points_see_each_other() {
         let bright = Scene { bounce: true, ..dark.clone() };
         (film(&white(), &dark), film(&white(), &bright))
     };
-    let (once, twice) = pictures(Shape::Sphere);
+    let (once, twice) = pictures(BodyShape::Sphere);
     assert!(once == twice, "a sphere sees nothing of itself");
-    let (once, twice) = pictures(Shape::Mesh(Mesh::torus(24)));
+    let (once, twice) = pictures(BodyShape::Mesh(Mesh::torus(24)));
     let pairs = || once.pixels.iter().zip(&twice.pixels).map(|(a, b)| (a[0].y, b[0].y));
     // The same samples of the lamp are in both; their sums are rounded in another order.
     assert!(pairs().all(|(a, b)| b >= a - 1e-12), "light was lost");
@@ -162,7 +166,8 @@ fn the_picture_is_the_same_on_one_thread_and_on_three() {
     let lamp = Lamp::at(degrees(40.0), degrees(120.0), degrees(3.0), 1.0);
     let metal = r#"{"model":"Facet_BRDF_Model","parameters":{"sdf.s":0.4}}"#;
     let metal = material(metal);
-    let scene = Scene { sky: Sky::Uniform(0.2), bounce: true, ..scene(Shape::Sphere, vec![lamp]) };
+    let scene =
+        Scene { sky: Sky::Uniform(0.2), bounce: true, ..scene(BodyShape::Sphere, vec![lamp]) };
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| film(&metal, &scene))
@@ -173,7 +178,7 @@ fn the_picture_is_the_same_on_one_thread_and_on_three() {
 #[test]
 fn a_transmitting_model_and_a_wish_to_stop_are_refused() {
     let lamp = Lamp::at(0.3, 0.0, 0.0, 1.0);
-    let scene = scene(Shape::Sphere, vec![lamp]);
+    let scene = scene(BodyShape::Sphere, vec![lamp]);
     let through = r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","type":1}}"#;
     let refusal = render(&material(through), &scene, &WAVELENGTHS, settings(), &Control::default());
     assert!(refusal.unwrap_err().to_string().contains("type"));
@@ -190,7 +195,8 @@ fn the_picture_of_interpolated_responses_is_that_of_every_sample() {
     let lamp = Lamp::at(degrees(60.0), degrees(120.0), 0.0, 2.0);
     let light = [1.0, 0.2, 0.1, 0.0];
     let light_basis = LampBasis::Horizontal;
-    let scene = Scene { light, light_basis, size: [192; 2], ..scene(Shape::Sphere, vec![lamp]) };
+    let scene =
+        Scene { light, light_basis, size: [192; 2], ..scene(BodyShape::Sphere, vec![lamp]) };
     let (fast, slow) =
         (film(&paint, &scene), film(&paint, &Scene { exact: true, ..scene.clone() }));
     assert!(fast != slow, "nothing was interpolated");
@@ -206,7 +212,7 @@ fn the_picture_of_interpolated_responses_is_that_of_every_sample() {
 #[test]
 fn a_spectral_picture_holds_the_spectra_of_which_the_colours_are() {
     let lamp = Lamp { toward: DVec3::Z, radius: 0.0, irradiance: 1.0 };
-    let scene = Scene { spectra: true, ..scene(Shape::Plane(0.0), vec![lamp]) };
+    let scene = Scene { spectra: true, ..scene(BodyShape::Plane(0.0), vec![lamp]) };
     let film = film(&white(), &scene);
     let middle = 4 * WAVELENGTHS.len() * (16 * 8 + 8);
     let pixel = &film.spectra[middle..middle + 4 * WAVELENGTHS.len()];

@@ -13,7 +13,7 @@ use mist_engine::{
     material::{Material, PreparedMaterial, query::ColourNames},
 };
 use pictures::image::{Encoding, Image};
-use preview::{Film, Lamp, LampBasis, Scene, Shape, Sky};
+use preview::{BodyShape, Lamp, LampBasis, RenderedFilm, Scene, Sky};
 use rise_bridge::{
     export::ExportError,
     rise::{
@@ -54,7 +54,7 @@ fn plan(text: &str, finer: usize) -> Result<DeferredPlan, ExportError> {
     deferred::plan(text, "balls", &MemoryFiles(BTreeMap::new()), false, finer)
 }
 
-fn film(text: &str, finer: usize, light: [f64; 4]) -> Film {
+fn film(text: &str, finer: usize, light: [f64; 4]) -> RenderedFilm {
     let plan = plan(text, finer).unwrap();
     let image = |name: &str| {
         let scene = &plan.files[&name.replace(".exr", ".RISEscene")];
@@ -207,7 +207,7 @@ fn seen_from_far_away_it_is_the_picture_of_the_preview() {
     let light = [1.0, 0.3, 0.2, 0.1];
     let deferred = film(&text, 8, light);
     let scene = Scene {
-        shape: Shape::Sphere,
+        shape: BodyShape::Sphere,
         lamps: vec![Lamp { irradiance: 2.5 * FRAC_1_PI, ..toward }],
         light,
         light_basis: LampBasis::PlaneOfIncidence,
@@ -227,7 +227,7 @@ fn seen_from_far_away_it_is_the_picture_of_the_preview() {
             assert!((found.y - expected.y).abs() < 0.03 * most, "{k}: {found:?} {expected:?}");
         }
     }
-    let seen = |film: &Film| film.pixels.iter().map(|p| p[2].y.abs()).sum::<f64>();
+    let seen = |film: &RenderedFilm| film.pixels.iter().map(|p| p[2].y.abs()).sum::<f64>();
     assert!((seen(&deferred) / seen(&expected) - 1.0).abs() < 0.02 && seen(&expected) > 0.1 * most);
 }
 
@@ -238,7 +238,7 @@ fn the_shadow_of_a_body_is_dark_and_other_materials_are_black() {
     let free = film(&scene(32, camera, 24.0, AWAY, lamp), 2, [1.0, 0.0, 0.0, 0.0]);
     let bead = DVec3::new(-0.1, 0.1, 2.0);
     let shaded = film(&scene(32, camera, 24.0, bead, lamp), 2, [1.0, 0.0, 0.0, 0.0]);
-    let bright = |film: &Film| film.pixels.iter().filter(|p| p[0].y > 0.0).count();
+    let bright = |film: &RenderedFilm| film.pixels.iter().filter(|p| p[0].y > 0.0).count();
     let pairs = || free.pixels.iter().zip(&shaded.pixels);
     assert!(pairs().all(|(a, b)| b[0].y <= a[0].y));
     // The disc of the bead and its shadow, each (0.3/0.95)² of the ball.

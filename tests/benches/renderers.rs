@@ -9,7 +9,7 @@ use mist_engine::{
     Control,
     material::{Material, PreparedMaterial, query::ColourNames},
 };
-use preview::{Lamp, LampBasis, Scene, Shape, Sky, mesh::Mesh, render};
+use preview::{BodyShape, Lamp, LampBasis, Scene, Sky, mesh::Mesh, render};
 use rise_bridge::mitsuba::{axes::HalfAngleAxes, pbsdf};
 use scattering::Mode;
 
@@ -32,7 +32,8 @@ fn preview(c: &mut Criterion) {
     let settings = names.settings(None).expect("names of CIE");
     let mut group = c.benchmark_group("preview");
     group.sample_size(10);
-    for (name, shape) in [("sphere", Shape::Sphere), ("knot", Shape::Mesh(Mesh::knot(96)))] {
+    for (name, shape) in [("sphere", BodyShape::Sphere), ("knot", BodyShape::Mesh(Mesh::knot(96)))]
+    {
         let scene = Scene {
             shape,
             lamps: vec![Lamp::at(0.7, 2.1, 0.0, 1.0)],

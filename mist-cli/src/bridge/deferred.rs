@@ -1,6 +1,6 @@
 //! `mist bridge --deferred`: scenes of geometry alone, and pictures from their renders.
 
-use ::preview::{Film, Polarization, brightest, picture};
+use ::preview::{Polarization, RenderedFilm, brightest, picture};
 use mist_engine::material::query::{self, ColourNames};
 use mist_runner::files::DiskFiles;
 use rise_bridge::{
@@ -68,7 +68,7 @@ impl BridgeArgs {
 
 fn save_picture(
     args: &BridgeArgs,
-    film: &Film,
+    film: &RenderedFilm,
     lit: &Illumination,
     name: &str,
     filter: Polarization,

@@ -1,51 +1,51 @@
-//! PLY: the Stanford Triangle Format, version 1.0, as text and in both byte orders (G. Turk, *The
-//! PLY Polygon File Format*, 1994).
+//! PLY, the Stanford Triangle Format 1.0, as text and in both byte orders, by the crate `ply-rs-bw`.
 //!
-//! Read are `x y z` and, if they are there, `nx ny nz` of the element `vertex`, and the list
-//! `vertex_indices` or `vertex_index` of `face`. Polygons become fans of triangles. Everything else
-//! is passed over.
+//! Read are `x y z` and `nx ny nz` of the element `vertex`, and the list `vertex_indices` or
+//! `vertex_index` of `face`. Polygons become fans of triangles. Other elements and properties are
+//! ignored.
 
 use glam::{DVec3, dvec3};
+use ply_rs_bw::{
+    parser::{ParseError, Parser, Reader},
+    ply::{Property, PropertyAccess, PropertyAccessResult},
+};
 
 use super::{MOST_TRIANGLES, Mesh, MeshError};
-
-/// Corners of a polygon at most.
-const MOST_CORNERS: usize = 1 << 16;
 
 impl Mesh {
     /// The mesh in the bytes of a PLY file.
     ///
     /// # Errors
     ///
-    /// If the bytes are no mesh.
+    /// If the bytes are not a mesh; the error names the line of a text.
     pub fn from_ply(bytes: &[u8]) -> Result<Self, MeshError> {
-        let (header, body) = Header::read(bytes)?;
-        let mut body = Body { bytes: body, form: header.form };
+        let mut reader = Reader::new(bytes);
+        let header = Parser::<Ignored>::new().read_header(&mut reader).map_err(malformed)?;
         let (mut points, mut normals, mut faces) = (Vec::new(), Vec::new(), Vec::new());
-        for element in &header.elements {
-            let find = |names: [&str; 3]| {
-                names.map(|name| element.properties.iter().position(|p| p.name == name))
-            };
-            let place = find(["x", "y", "z"]);
-            let normal = find(["nx", "ny", "nz"]);
-            let corners = element.properties.iter().position(|property| {
-                property.count.is_some()
-                    && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")
-            });
-            for _ in 0..element.count {
-                let values = body.record(element)?;
-                match element.name.as_str() {
-                    "vertex" => {
-                        let point = vector(&values, place);
-                        points.push(point.ok_or_else(|| malformed("a vertex has no x, y, z"))?);
-                        normals.extend(vector(&values, normal));
+        // An element without properties has no data, however many of it the header states.
+        for element in header.elements.values().filter(|element| !element.properties.is_empty()) {
+            match element.name.as_str() {
+                "vertex" => {
+                    let parser = Parser::<PlyVertex>::new();
+                    let read = parser.read_payload_for_element(&mut reader, element, &header);
+                    for vertex in read.map_err(malformed)? {
+                        let point = vector(vertex.point);
+                        points.push(point.ok_or_else(|| invalid("a vertex has no x, y, z"))?);
+                        normals.extend(vector(vertex.normal));
                     }
-                    "face" => {
-                        let corners = corners.map(|at| &values[at]);
-                        let corners = corners.ok_or_else(|| malformed("a face has no list"))?;
-                        fan(corners, &mut faces)?;
+                }
+                "face" => {
+                    let parser = Parser::<PlyFace>::new();
+                    let read = parser.read_payload_for_element(&mut reader, element, &header);
+                    for face in read.map_err(malformed)? {
+                        let corners = face.corners.ok_or_else(|| invalid("a face has no list"))?;
+                        add_fan(&corners, &mut faces)?;
                     }
-                    _ => {}
+                }
+                _ => {
+                    let parser = Parser::<Ignored>::new();
+                    let read = parser.read_payload_for_element(&mut reader, element, &header);
+                    read.map_err(malformed)?;
                 }
             }
         }
@@ -53,199 +53,123 @@ impl Mesh {
     }
 }
 
-fn malformed(problem: impl Into<String>) -> MeshError {
+/// The error of the parser in one line.
+fn malformed(error: ParseError) -> MeshError {
+    let text = error.to_string();
+    MeshError::Malformed(text.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+fn invalid(problem: &str) -> MeshError {
     MeshError::Malformed(problem.into())
 }
 
-/// Three single numbers of a record.
-fn vector(values: &[Vec<f64>], at: [Option<usize>; 3]) -> Option<DVec3> {
-    let number = |at: Option<usize>| values[at?].first().copied();
-    Some(dvec3(number(at[0])?, number(at[1])?, number(at[2])?))
+fn vector([x, y, z]: [Option<f64>; 3]) -> Option<DVec3> {
+    Some(dvec3(x?, y?, z?))
 }
 
-/// Triangles around the first corner.
-fn fan(corners: &[f64], faces: &mut Vec<[usize; 3]>) -> Result<(), MeshError> {
-    let index = |x: &f64| (*x >= 0.0 && x.fract() == 0.0).then_some(*x as usize);
+/// Adds triangles around the first corner of a polygon.
+fn add_fan(corners: &[i64], faces: &mut Vec<[usize; 3]>) -> Result<(), MeshError> {
+    let index = |corner: &i64| usize::try_from(*corner).ok();
     let corners: Option<Vec<usize>> = corners.iter().map(index).collect();
-    let corners = corners.ok_or_else(|| malformed("a face names a point by no whole number"))?;
+    let corners = corners.ok_or_else(|| invalid("a face names a point with a negative number"))?;
     for pair in corners.windows(2).skip(1) {
         faces.push([corners[0], pair[0], pair[1]]);
     }
     if faces.len() > MOST_TRIANGLES { Err(MeshError::Large(faces.len())) } else { Ok(()) }
 }
 
-#[derive(Clone, Copy)]
-enum Form {
-    Text,
-    Little,
-    Big,
+/// A point with its normal, if the file has them.
+#[derive(Default)]
+struct PlyVertex {
+    point: [Option<f64>; 3],
+    normal: [Option<f64>; 3],
 }
 
-#[derive(Clone, Copy)]
-enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    F32,
-    F64,
-}
-
-impl Kind {
-    fn of(word: &str) -> Option<Self> {
-        Some(match word {
-            "char" | "int8" => Self::I8,
-            "uchar" | "uint8" => Self::U8,
-            "short" | "int16" => Self::I16,
-            "ushort" | "uint16" => Self::U16,
-            "int" | "int32" => Self::I32,
-            "uint" | "uint32" => Self::U32,
-            "float" | "float32" => Self::F32,
-            "double" | "float64" => Self::F64,
-            _ => return None,
-        })
-    }
-
-    fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
-        }
-    }
-}
-
-struct Property {
-    name: String,
-    /// Type of the number of values, of a list.
-    count: Option<Kind>,
-    kind: Kind,
-}
-
-struct Element {
-    name: String,
-    count: usize,
-    properties: Vec<Property>,
-}
-
-struct Header {
-    form: Form,
-    elements: Vec<Element>,
-}
-
-impl Header {
-    /// The header, and what follows it.
-    fn read(bytes: &[u8]) -> Result<(Self, &[u8]), MeshError> {
-        let mut rest = bytes;
-        let mut line = || {
-            let end = rest.iter().position(|byte| *byte == b'\n');
-            let end = end.ok_or_else(|| malformed("a PLY header ends with end_header"))?;
-            let text = String::from_utf8_lossy(&rest[..end]).trim().to_owned();
-            rest = &rest[end + 1..];
-            Ok::<String, MeshError>(text)
+impl PlyVertex {
+    fn set(&mut self, name: &str, value: f64) -> PropertyAccessResult {
+        let place = match name {
+            "x" => &mut self.point[0],
+            "y" => &mut self.point[1],
+            "z" => &mut self.point[2],
+            "nx" => &mut self.normal[0],
+            "ny" => &mut self.normal[1],
+            "nz" => &mut self.normal[2],
+            _ => return PropertyAccessResult::Ignored,
         };
-        if line()? != "ply" {
-            return Err(malformed("a PLY file begins with ply"));
-        }
-        let (mut form, mut elements) = (None, Vec::<Element>::new());
-        loop {
-            let text = line()?;
-            let unknown = || malformed(format!("{text:?} is no line of a PLY header"));
-            let words: Vec<&str> = text.split_whitespace().collect();
-            match words[..] {
-                ["end_header"] => break,
-                [] | ["comment" | "obj_info", ..] => {}
-                ["format", "ascii", _] => form = Some(Form::Text),
-                ["format", "binary_little_endian", _] => form = Some(Form::Little),
-                ["format", "binary_big_endian", _] => form = Some(Form::Big),
-                ["element", name, count] => {
-                    let count = count.parse().map_err(|_| unknown())?;
-                    elements.push(Element { name: name.into(), count, properties: Vec::new() });
-                }
-                ["property", ref kinds @ .., name] => {
-                    let (count, kind) = match kinds {
-                        ["list", count, kind] => {
-                            (Some(Kind::of(count).ok_or_else(unknown)?), Kind::of(kind))
-                        }
-                        [kind] => (None, Kind::of(kind)),
-                        _ => return Err(unknown()),
-                    };
-                    let kind = kind.ok_or_else(unknown)?;
-                    let element = elements.last_mut().ok_or_else(unknown)?;
-                    element.properties.push(Property { name: name.into(), count, kind });
-                }
-                _ => return Err(unknown()),
-            }
-        }
-        let form = form.ok_or_else(|| malformed("a PLY header has a line format"))?;
-        // Records without bytes could be promised without end.
-        elements.retain(|element| !element.properties.is_empty());
-        Ok((Self { form, elements }, rest))
+        *place = Some(value);
+        PropertyAccessResult::Set
     }
 }
 
-struct Body<'a> {
-    bytes: &'a [u8],
-    form: Form,
+impl PropertyAccess for PlyVertex {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
+        let number = match value {
+            Property::Double(x) => Some(x),
+            Property::Int(x) => Some(x.into()),
+            Property::UInt(x) => Some(x.into()),
+            // Exact for the other types, which are narrower; none for lists.
+            narrow => narrow.to_f32_lossy().map(f64::from),
+        };
+        number.map_or(PropertyAccessResult::Ignored, |number| self.set(name, number))
+    }
+
+    fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
+        self.set(name, value.into())
+    }
+
+    fn set_double(&mut self, name: &str, value: f64) -> PropertyAccessResult {
+        self.set(name, value)
+    }
 }
 
-impl Body<'_> {
-    /// The values of the properties of a record.
-    fn record(&mut self, element: &Element) -> Result<Vec<Vec<f64>>, MeshError> {
-        let values = element.properties.iter().map(|property| {
-            let count = match property.count {
-                None => 1,
-                Some(kind) => self.number(kind)? as usize,
-            };
-            if count > MOST_CORNERS {
-                return Err(malformed(format!("a list has {count} values")));
-            }
-            (0..count).map(|_| self.number(property.kind)).collect()
+/// The corners of a polygon, if the file has them.
+#[derive(Default)]
+struct PlyFace {
+    corners: Option<Vec<i64>>,
+}
+
+impl PropertyAccess for PlyFace {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
+        fn wide<T: Into<i64>>(list: Vec<T>) -> Vec<i64> {
+            list.into_iter().map(T::into).collect()
+        }
+        if !matches!(name, "vertex_indices" | "vertex_index") {
+            return PropertyAccessResult::Ignored;
+        }
+        self.corners = Some(match value {
+            Property::ListChar(list) => wide(list),
+            Property::ListUChar(list) => wide(list),
+            Property::ListShort(list) => wide(list),
+            Property::ListUShort(list) => wide(list),
+            Property::ListInt(list) => wide(list),
+            Property::ListUInt(list) => wide(list),
+            _ => return PropertyAccessResult::UnsupportedType,
         });
-        values.collect()
+        PropertyAccessResult::Set
     }
+}
 
-    fn number(&mut self, kind: Kind) -> Result<f64, MeshError> {
-        let cut = || malformed("the file is cut off");
-        if matches!(self.form, Form::Text) {
-            self.bytes = self.bytes.trim_ascii_start();
-            let end = self.bytes.iter().position(u8::is_ascii_whitespace);
-            let (word, rest) = self.bytes.split_at(end.unwrap_or(self.bytes.len()));
-            self.bytes = rest;
-            let word = std::str::from_utf8(word).map_err(|_| cut())?;
-            return word.parse().map_err(|_| match word {
-                "" => cut(),
-                _ => malformed(format!("{word:?} is no number")),
-            });
-        }
-        let (own, rest) = self.bytes.split_at_checked(kind.size()).ok_or_else(cut)?;
-        self.bytes = rest;
-        let mut bytes = [0; 8];
-        let bytes = &mut bytes[..own.len()];
-        bytes.copy_from_slice(own);
-        if matches!(self.form, Form::Big) {
-            bytes.reverse();
-        }
-        Ok(match (kind, &*bytes) {
-            (Kind::I8, [a]) => f64::from(a.cast_signed()),
-            (Kind::U8, [a]) => f64::from(*a),
-            (Kind::I16, [a, b]) => f64::from(i16::from_le_bytes([*a, *b])),
-            (Kind::U16, [a, b]) => f64::from(u16::from_le_bytes([*a, *b])),
-            (Kind::I32, [a, b, c, d]) => f64::from(i32::from_le_bytes([*a, *b, *c, *d])),
-            (Kind::U32, [a, b, c, d]) => f64::from(u32::from_le_bytes([*a, *b, *c, *d])),
-            (Kind::F32, [a, b, c, d]) => f64::from(f32::from_le_bytes([*a, *b, *c, *d])),
-            (_, all) => f64::from_le_bytes(all.try_into().map_err(|_| cut())?),
-        })
+/// An element whose properties are ignored.
+struct Ignored;
+
+impl PropertyAccess for Ignored {
+    fn new() -> Self {
+        Self
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ray::Ray;
+    use crate::ray::SceneRay;
 
     const SQUARE: &str = "ply\nformat ascii 1.0\ncomment a square\nelement vertex 4\n\
         property float x\nproperty float y\nproperty float z\nelement face 1\n\
@@ -274,7 +198,7 @@ mod tests {
     fn a_square_is_the_same_as_text_and_in_both_byte_orders() {
         for bytes in [SQUARE.as_bytes().to_vec(), binary(false), binary(true)] {
             let mesh = Mesh::from_ply(&bytes).unwrap();
-            let down = |x, y| Ray { from: dvec3(x, y, 10.0), along: -DVec3::Z };
+            let down = |x, y| SceneRay { from: dvec3(x, y, 10.0), along: -DVec3::Z };
             let hit = mesh.hit(down(0.5, -0.5)).unwrap();
             assert!((hit.normal - DVec3::Z).length() < 1e-12);
             assert!(mesh.hit(down(-0.5, 0.5)).is_some() && mesh.hit(down(0.8, 0.0)).is_none());
@@ -282,7 +206,26 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_cut_off_or_wrong_is_refused() {
+    fn other_elements_types_and_line_ends_are_read() {
+        let edges = SQUARE.replace("element face", "element edge 1\nproperty int a\nelement face");
+        let edges = edges.replace("4 0 1", "9\n4 0 1");
+        let empty = SQUARE.replace("element face", "element none 99999999999\nelement face");
+        let lines = SQUARE.replace('\n', "\r\n");
+        let types = SQUARE.replace("float", "float64").replace("uchar int", "uint8 uint16");
+        for text in [edges, empty, lines, types] {
+            assert!(Mesh::from_ply(text.as_bytes()).is_ok(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_line_of_an_error_is_named() {
+        let wrong = SQUARE.replace("1 1 0", "1 1 x");
+        let error = Mesh::from_ply(wrong.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains("Line 13") && !error.contains('\n'), "{error}");
+    }
+
+    #[test]
+    fn a_truncated_or_invalid_file_is_refused() {
         for bytes in [SQUARE.as_bytes().to_vec(), binary(false)] {
             for length in 0..bytes.len() - 2 {
                 assert!(Mesh::from_ply(&bytes[..length]).is_err(), "{length}");

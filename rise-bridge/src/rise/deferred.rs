@@ -16,7 +16,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use glam::DVec3;
 use mist_engine::{Control, Files};
 use pictures::image::Image;
-use preview::{DistantLamps, Film, LampBasis, SurfacePoint, shade};
+use preview::{DistantLamps, LampBasis, RenderedFilm, SurfacePoint, shade};
 use scattering::Mode;
 use spectra::{ColourSettings, Xyz};
 
@@ -147,7 +147,7 @@ impl DeferredPlan {
         files: &Arc<dyn Files + Send + Sync>,
         illumination: &Illumination,
         control: &Control,
-    ) -> Result<Film, ExportError> {
+    ) -> Result<RenderedFilm, ExportError> {
         let mut pixels = vec![[Xyz::default(); 4]; self.size[0] * self.size[1]];
         let toward: Vec<DVec3> = self.lamps.iter().map(|lamp| lamp.toward).collect();
         let lamps = DistantLamps {
@@ -165,7 +165,7 @@ impl DeferredPlan {
                 *sum += *stokes;
             }
         }
-        Ok(Film { size: self.size, pixels, spectra: Vec::new() })
+        Ok(RenderedFilm { size: self.size, pixels, spectra: Vec::new() })
     }
 
     /// The renders of a material, read by `image`.
