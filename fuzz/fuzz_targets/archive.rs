@@ -1,4 +1,4 @@
-//! Any bytes as a document of the Windows program, or a program, to be converted.
+//! Conversion of any bytes, read as a document of the Windows program or as a program.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,4 +1,4 @@
-//! Texts that are nearly programs: printing and reading again loses nothing.
+//! Texts that resemble programs: printing and reading again preserves them.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,11 +1,11 @@
-//! A program compiled with a few files beside it.
+//! Compilation of a program with a few data files.
 
 use std::{collections::BTreeMap, sync::Arc};
 
 use mist_engine::{MemoryFiles, Options, compile};
 use scattering::Mode;
 
-/// Compiling ends with a job or with diagnostics that lie in the text.
+/// Asserts that compilation gives a job, or diagnostics whose places lie in the text.
 pub fn compiles_or_says_why(text: &str) {
     for mode in [Mode::Sound, Mode::Compat] {
         let options = Options { mode, ..Options::default() };

@@ -1,7 +1,6 @@
-//! What the fuzz targets assert, and the texts that they make of bytes.
+//! Assertions of the fuzz targets, and the generation of texts from bytes.
 //!
-//! The laws themselves are those of the property tests: one text that breaks one of them becomes
-//! a test there.
+//! The properties are those of the property tests. A text that violates one is added to those tests.
 
 pub mod check;
 pub mod likely;

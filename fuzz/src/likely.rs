@@ -1,6 +1,6 @@
-//! Bytes to texts that are nearly programs, so that most of them are read to their end.
+//! Generation of texts that resemble programs, so that most of them are parsed to the end.
 
-/// Entries of VARIABLES: usual, odd, and wrong ones.
+/// Entries of VARIABLES: usual, unusual and wrong ones.
 const ENTRIES: [&str; 16] = [
     "a = 1",
     "a=(1,2)",
@@ -66,12 +66,12 @@ const COLOR: [&str; 8] = [
     "filter = \"linear(0) retarder(0,1)\"",
     "patch = point ; note",
 ];
-/// What stands between two entries.
+/// Separators between two entries.
 const BLANKS: [&str; 8] =
     ["\n", " ", "\n\n", " ; note\n", "\n; own line\n", "\r\n", "\t\n", "\n;\n;;\n"];
 
-/// A text with the sections of a program; each byte chooses an entry and what follows it, 255
-/// begins the next section.
+/// A text with the sections of a program. Each byte chooses an entry and its separator; 255 begins
+/// the next section.
 pub fn program(bytes: &[u8]) -> String {
     let mut sections = bytes.split(|byte| *byte == u8::MAX);
     let mut section = |known: &[&str], number: bool| -> String {

@@ -1,6 +1,6 @@
-// What the page asks of the service. Every refusal becomes one kind of error.
+// Requests of the page to the service. Every refusal becomes a `Problem`.
 
-/** An answer that is not the one wanted: `application/problem+json`, or no answer at all. */
+/** A failed request: `application/problem+json`, or no response. */
 export class Problem extends Error {
   constructor(status, body) {
     const text = body.message ?? body.detail ?? body.title ?? `the service answered ${status}`;
@@ -13,7 +13,7 @@ export class Problem extends Error {
 
 const KEY = "key";
 
-/** The key of a service that wants one. It is kept until the tab is closed, and never shared. */
+/** The key of the service, if it requires one; stored until the tab is closed, not part of links. */
 export const key = {
   get: () => sessionStorage.getItem(KEY) ?? "",
   set: (text) => sessionStorage.setItem(KEY, text),
@@ -53,7 +53,7 @@ export const models = async () => (await ask("v1/models")).json();
 export const evaluate = async (request, signal) =>
   (await (await ask("v1/evaluate", posted(request, signal))).json()).mueller;
 
-/** What is wrong with {program, files, compat}: [{line, column, message, help}]. */
+/** Diagnostics of {program, files, compat}: [{line, column, message, help}]. */
 export const check = async (request, signal) =>
   (await (await ask("v1/check", posted(request, signal))).json()).diagnostics;
 
@@ -67,7 +67,7 @@ export const stop = (id) => ask(`v1/jobs/${id}`, { method: "DELETE" });
 /** A text that a job wrote: "results", "samples" or "listing". */
 export const jobText = async (id, what) => (await ask(`v1/jobs/${id}/${what}`)).text();
 
-/** Calls `told` with every state of the job until it has ended; the last state. */
+/** Calls `told` with every state of the job until it has ended; returns the last state. */
 export async function follow(id, told) {
   const response = await ask(`v1/jobs/${id}/events`);
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
@@ -84,7 +84,7 @@ export async function follow(id, told) {
     }
   }
   if (state && !["queued", "running"].includes(state.state)) return state;
-  throw new Problem(0, { message: "the service went away while the job ran" });
+  throw new Problem(0, { message: "the connection to the service was lost while the job ran" });
 }
 
 /** Colours of a material at text rows `thetai thetas phis point`: the table as JSON. */
@@ -106,7 +106,7 @@ export function table(material, file, query, signal) {
 
 const known = new Set();
 
-/** Does `wanted` with the name under which the service keeps `material`, which it may forget. */
+/** Calls `wanted` with the name of the stored `material`; stores it again if the service has deleted it. */
 async function withMaterial(material, wanted) {
   const text = JSON.stringify(material);
   const name = `page-${digest(text)}`;

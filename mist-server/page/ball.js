@@ -1,6 +1,6 @@
-// A ball of the material under one lamp, without a filter and behind a polarizing filter.
+// A sphere of the material under one lamp, without and with a polarizing filter.
 //
-// The camera looks along −z from far away, so every pixel has one direction of incidence and one
+// The distant camera looks along −z, so every pixel has one direction of incidence and one
 // of scattering; the service gives its colour and its Stokes components, and the filter is arithmetic:
 // behind a filter at the angle a from s the light is (I + Q cos 2a + U sin 2a)/2.
 
@@ -12,7 +12,7 @@ import { set, state } from "./state.js";
 import { cross, dot, minus, times, unit } from "./vector.js";
 
 const SIZE = 144;
-/** Of the ball, where half the picture is 1. */
+/** Radius of the sphere, in units of half the picture. */
 const RADIUS = 0.95;
 const VIEW = [0, 0, 1];
 const GROUND = [24, 25, 28];
@@ -36,12 +36,12 @@ export async function show(place, material, signal) {
         make("figcaption", {}, "Behind a linear polarizer",
           make("div", {}, slider("axis", state.angle, (angle) => { set({ angle }); paint(); },
             { min: 0, max: 180, step: 1, unit: "°", id: "filter-angle" })),
-          "0° lets horizontal light through; the scale is the same on both sides"))));
+          "0° transmits horizontal light; the scale is the same on both sides"))));
   scene = await look(material, signal);
   paint();
 }
 
-/** Which pixels see the ball, and the colours there. */
+/** The pixels that show the sphere, with their colours. */
 async function look(material, signal) {
   const lamp = (state.light * Math.PI) / 180;
   const source = unit([-Math.sin(lamp) * 0.6, Math.sin(lamp) * 0.8, Math.cos(lamp)]);
@@ -76,7 +76,7 @@ function visible(source) {
 const middle = (row, column) => [(2 * (column + 0.5)) / SIZE - 1, 1 - (2 * (row + 0.5)) / SIZE];
 
 function pixel(row, column, normal, source, cosine) {
-  // The models let the light come from −x.
+  // In the models the light comes from −x.
   const along = unit(minus(times(normal, cosine), source)) ?? unit(cross([0, 1, 0], normal));
   const across = cross(normal, along);
   const phi = Math.atan2(dot(VIEW, across), dot(VIEW, along));
@@ -90,7 +90,7 @@ function pixel(row, column, normal, source, cosine) {
 function fill(canvas, scene, filter) {
   const context = canvas.getContext("2d");
   const image = context.createImageData(SIZE, SIZE);
-  // What the lamp does not reach is black.
+  // Pixels without light of the lamp are black.
   for (let at = 0; at < SIZE * SIZE; at += 1) {
     const isBall = Math.hypot(...middle(Math.floor(at / SIZE), at % SIZE)) < RADIUS;
     image.data.set([...(isBall ? [0, 0, 0] : GROUND), 255], 4 * at);

@@ -11,7 +11,7 @@ export function lines(curves, { x = "", y = "", log = false } = {}) {
   const scale = log ? Math.log10 : (value) => value;
   const fits = ([px, py]) => Number.isFinite(px) && Number.isFinite(scale(py));
   const points = curves.flatMap((curve) => curve.points.filter(fits));
-  if (!points.length) return make("p", { class: "quiet" }, "Nothing to draw here.");
+  if (!points.length) return make("p", { class: "quiet" }, "No data to plot.");
   const across = axis(points.map((point) => point[0]), left, width - 14);
   const up = axis(points.map((point) => scale(point[1])), height - bottom, 12, !log);
   const svg = draw("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${y} over ${x}` });
@@ -81,7 +81,7 @@ export const legend = (curves) =>
   make("div", { class: "legend" }, ...curves.map((curve, at) =>
     make("span", {}, make("i", { style: `background:${curve.colour ?? colour(at)}` }), curve.name)));
 
-/** A number in few characters. */
+/** A short text of a number. */
 export function short(value) {
   if (value === 0) return "0";
   const size = Math.abs(value);
@@ -93,7 +93,7 @@ function turn(degrees) {
   return [Math.sin(angle), Math.cos(angle)];
 }
 
-/** The longest stretches of `points` that `wanted` takes. */
+/** The longest runs of `points` for which `wanted` is true. */
 function runs(points, wanted) {
   const found = [[]];
   for (const point of points) {

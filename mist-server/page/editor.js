@@ -31,7 +31,7 @@ export class Editor {
     this.mark([]);
   }
 
-  /** Shows errors {line, column, message, help}; a press leads to the place. */
+  /** Shows errors {line, column, message, help}; a click moves the cursor to the place. */
   mark(errors) {
     const wrong = new Set(errors.map((error) => error.line));
     const count = this.text.split("\n").length;
@@ -45,7 +45,7 @@ export class Editor {
     }));
   }
 
-  /** Puts the cursor to a place. */
+  /** Moves the cursor to a place. */
   go({ line, column }) {
     const before = this.text.split("\n").slice(0, line - 1);
     const at = before.reduce((sum, one) => sum + one.length + 1, 0) + column - 1;

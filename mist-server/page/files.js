@@ -1,4 +1,4 @@
-// Data files that go with the material: kept in the state, so that a link carries them.
+// Data files of the material, stored in the state and therefore in links.
 
 import { make } from "./dom.js";
 import { set, state } from "./state.js";

@@ -2,7 +2,7 @@
 
 import { make } from "./dom.js";
 
-/** What the registry says, by class and by family. */
+/** The registry by class and by family. */
 export class Registry {
   constructor({ families }) {
     this.families = new Map(families.map((family) => [family.base, family.classes]));
@@ -10,7 +10,7 @@ export class Registry {
     this.classes = new Map(all.map((one) => [one.name, one]));
   }
 
-  /** The classes that can stand for `base`. */
+  /** The classes of the family `base`. */
   members(base) {
     return this.families.get(base) ?? [];
   }
@@ -26,7 +26,7 @@ export class Registry {
     });
   }
 
-  /** Of `values` what differs from the defaults and is a parameter, members before their own. */
+  /** The `values` of parameters that differ from the defaults, parents before their sub-parameters. */
   clean(name, values) {
     const set = this.tree(name, values).filter(([path, parameter]) =>
       path in values && values[path] !== parameter.default && values[path] !== "");

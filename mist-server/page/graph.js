@@ -1,4 +1,4 @@
-// Graphs of a run's columns against what the program varied, and its table.
+// Graphs of a run's columns over its loop variables, and its table.
 
 import { colour, legend, lines } from "./chart.js";
 import { choice, make, tick } from "./dom.js";
@@ -6,7 +6,7 @@ import { set, state } from "./state.js";
 
 const ROWS = 500;
 
-/** What a results file says: names of the columns and rows of numbers. */
+/** Contents of a results file: names of the columns and rows of numbers. */
 export function parse(text) {
   const all = text.split("\n").map((line) => line.trim().split(/\s+/)).filter((words) => words[0] !== "");
   const isRow = (words) => words.every((word) => /^[-+]?(\d|\.\d|nan|inf)/i.test(word));
@@ -45,7 +45,7 @@ export async function show(place, results) {
     sheet(names, rows));
 }
 
-/** One curve for every stretch of rows over which x moves one way: inner loops make several. */
+/** One curve for every run of rows with monotonic x; inner loops give several. */
 function split(names, rows, x, name) {
   const [over, value] = [names.indexOf(x), names.indexOf(name)];
   const curves = [];

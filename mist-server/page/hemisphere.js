@@ -1,4 +1,4 @@
-// The scattering hemisphere with points coloured by their BRDF or intensity; it can be turned.
+// The scattering hemisphere with points coloured by their BRDF or intensity; it can be rotated.
 
 import { jobText } from "./api.js";
 import { short } from "./chart.js";
@@ -47,7 +47,7 @@ function globe(points, values, isModel) {
   const colours = values.map((value) => ramp(part(value, most)));
   const canvas = make("canvas", {
     width: SIZE, height: SIZE * 0.9, id: "hemisphere", tabindex: 0, role: "img",
-    "aria-label": "Scattering hemisphere; arrow keys turn it",
+    "aria-label": "Scattering hemisphere; arrow keys rotate it",
   });
   const paint = () => drawGlobe(canvas, points, colours, isModel);
   let held = null;
@@ -77,7 +77,7 @@ function rotate(x, y, paint) {
   paint();
 }
 
-/** Seen from far away, after a turn about z and one about the horizontal axis of the screen. */
+/** Parallel projection after rotations about z and about the horizontal axis of the screen. */
 function project([x, y, z]) {
   const [sin, cos] = [Math.sin(turn.around), Math.cos(turn.around)];
   const [side, depth] = [x * cos - y * sin, x * sin + y * cos];

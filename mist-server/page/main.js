@@ -24,7 +24,7 @@ const VIEWS = {
   graph: ["Graph", (place) => graph.show(place, runner.results)],
 };
 
-/** What a change of these does not change the picture for, or repaints by itself. */
+/** Values whose change needs no new picture, or that repaint it themselves. */
 const SILENT = new Set(["exposure", "angle"]);
 
 if (!state.program) state.program = PROGRAM;
@@ -43,7 +43,7 @@ function run() {
 }
 
 let checking = null;
-/** Remembers a program and marks its mistakes when typing pauses. */
+/** Stores a program and marks its errors when typing pauses. */
 function typed(program) {
   checking?.abort();
   checking = new AbortController();
@@ -59,7 +59,7 @@ function typed(program) {
   });
 }
 
-/** Tells what is wrong: at its place if it has one. */
+/** Shows an error, at its place if it has one. */
 function refused(error) {
   editor.mark(error.marks ?? []);
   const problem = element("problem");
@@ -72,14 +72,14 @@ function clear() {
 }
 
 let waiting = null;
-/** Does `work` when typing pauses. */
+/** Calls `work` when typing pauses. */
 function later(work) {
   clearTimeout(waiting);
   waiting = setTimeout(work, 400);
 }
 
 let asked = null;
-/** Shows the chosen view; an earlier one that is not ready yet is given up. */
+/** Shows the chosen view; an earlier one that is not ready is cancelled. */
 async function show() {
   asked?.abort();
   asked = new AbortController();
@@ -98,7 +98,7 @@ async function show() {
   }
 }
 
-/** Tabs: a press or an arrow key chooses. */
+/** Tabs, chosen by click or arrow key. */
 function tabs(list, chosen) {
   const mark = () => {
     for (const tab of list) {
@@ -145,7 +145,7 @@ async function begin() {
     element("share").textContent = "Copied";
     setTimeout(() => { element("share").textContent = "Copy link"; }, 1500);
   });
-  // A link into the page that is open already.
+  // The address of the open page has changed.
   addEventListener("hashchange", () => location.reload());
   element("key").value = key.get();
   element("key").addEventListener("change", () => {

@@ -15,7 +15,7 @@ export class Runner {
     cancel.addEventListener("click", () => this.job && stop(this.job).catch(refused));
   }
 
-  /** Runs {program, files, compat} to its end. */
+  /** Runs {program, files, compat} and waits for the end. */
   async go(request) {
     if (this.run.disabled) return;
     this.busy(true);

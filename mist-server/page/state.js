@@ -32,7 +32,7 @@ const listeners = [];
 /** The one state. Change it with `set`. */
 export const state = { ...START, ...read() };
 
-/** Changes values, remembers them in the address and tells everybody what has changed. */
+/** Changes values, stores them in the address and notifies the listeners. */
 export function set(changes) {
   Object.assign(state, changes);
   history.replaceState(null, "", `#${write()}`);
@@ -40,7 +40,7 @@ export function set(changes) {
   for (const listener of listeners) listener(names);
 }
 
-/** Calls `listener` with the names of what has changed. */
+/** Calls `listener` with the names of changed values. */
 export function onChange(listener) {
   listeners.push(listener);
 }
@@ -56,7 +56,7 @@ export const INCIDENT = {
   "right circular": [1, 0, 0, -1],
 };
 
-/** The first material needs a data file, which the service has. */
+/** The first material needs a data file, which the service provides. */
 export async function begin() {
   const name = "gold.nk";
   if (state.parameters.substrate !== name || name in state.files) return;
@@ -64,7 +64,7 @@ export async function begin() {
   state.files = { ...state.files, [name]: await response.text() };
 }
 
-/** What the service is told of the material. */
+/** The material as the service expects it. */
 export function material() {
   if (state.input === "program") {
     return { program: state.program, files: state.files, compat: state.compat };
@@ -72,7 +72,7 @@ export function material() {
   return { model: state.model, parameters: Object.entries(state.parameters), files: state.files };
 }
 
-/** The address carries only what differs from the start. */
+/** The address contains only the values that differ from the start. */
 function write() {
   const changed = Object.entries(state).filter(
     ([name, value]) => JSON.stringify(value) !== JSON.stringify(START[name]),

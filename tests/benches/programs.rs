@@ -1,8 +1,8 @@
-//! Time of whole runs of the bench programs, as NIST's program runs them: compile, run, format.
+//! Time of complete runs of the bench programs: compile, run, format.
 //!
 //!     cargo bench -p mist-tests
 //!
-//! `docs/performance.md` holds its figures beside NIST's.
+//! `docs/performance.md` compares the figures with NIST's.
 
 use std::path::Path;
 

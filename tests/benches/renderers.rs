@@ -2,7 +2,7 @@
 //!
 //!     cargo bench -p mist-tests --bench renderers
 //!
-//! The aims are 5 s and 1 s on two processors.
+//! Targets: 5 s and 1 s on two processors.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use mist_engine::{

@@ -70,7 +70,7 @@ def check(mist, report):
     mi.set_variant("scalar_spectral_polarized")
     import mist_bsdf
 
-    words = ["--plugin", "--wavelengths", "400:20:700", "--grid", "19x10x12"]
+    words = ["--plugin", "--lambda", "400:20:700", "--grid", "19x10x12"]
     path, _ = mist.export(METAL, "metal16.pbsdf", *words)
     bsdf = mi.load_dict({"type": "mist", "filename": path, "alpha": 0.35})
     at_nodes(mist, bsdf, "16 wavelengths from a file", report)

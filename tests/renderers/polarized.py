@@ -42,7 +42,7 @@ def predicted(plane, l, v):
 
 def nodes(mist, report):
     """At its nodes the table is the material, to the 32 bits of Mitsuba."""
-    path, said = mist.export(METAL, "metal.pbsdf", "--format", "pbsdf", "--wavelengths",
+    path, said = mist.export(METAL, "metal.pbsdf", "--format", "pbsdf", "--lambda",
                              ",".join(map(str, NM)), "--grid", "37x46x91")
     bsdf = mi.load_dict({"type": "measured_polarized", "filename": path, "alpha_sample": 0.35})
     rng = np.random.default_rng(1)

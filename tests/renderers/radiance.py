@@ -17,7 +17,7 @@ ROUGH = {"model": "Two_Source_BRDF_Model", "parameters": {
 
 
 def check(mist, report):
-    path, _ = mist.export(ROUGH, "rough.xml", "--wavelengths", "400:20:700")
+    path, _ = mist.export(ROUGH, "rough.xml", "--lambda", "400:20:700")
     here = Path(pyradiance.__file__).parent
     said = subprocess.run([here / "bin" / "checkBSDF", path], capture_output=True, text=True,
                           env={**os.environ, "RAYPATH": f".:{here / 'lib'}"}, check=False).stdout

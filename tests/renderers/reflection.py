@@ -35,7 +35,7 @@ def albedo(bsdf, theta, count=20000):
 def ridges(mist, report):
     """A material that changes when the sample is turned."""
     mi.set_variant("scalar_spectral")
-    path, _ = mist.export(RIDGES, "ridges.bsdf", "--wavelengths", "500,550", "--grid", "37x20x64")
+    path, _ = mist.export(RIDGES, "ridges.bsdf", "--lambda", "500,550", "--grid", "37x20x64")
     bsdf = mi.load_dict({"type": "measured", "filename": path})
     pairs = random_pairs(600, 5, lowest=0.2)
     exact = mist.plane(RIDGES, pairs, 550)[:, 0, 0] * [l[2] for l, _ in pairs]
@@ -46,7 +46,7 @@ def ridges(mist, report):
 def check(mist, report):
     ridges(mist, report)
     for variant, words in [
-        ("scalar_spectral", ["--spectral", "--wavelengths", ",".join(map(str, SPECTRAL))]),
+        ("scalar_spectral", ["--spectral", "--lambda", ",".join(map(str, SPECTRAL))]),
         ("scalar_rgb", ["--rgb"]),
     ]:
         mi.set_variant(variant)

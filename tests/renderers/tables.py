@@ -13,7 +13,7 @@ SCHEMA = Path(__file__).with_name("openmaterial.schema.json")
 
 
 def check(mist, report):
-    path, _ = mist.export(METAL, "metal_brdf.xompt", "--wavelengths", "450,550,650", "--grid",
+    path, _ = mist.export(METAL, "metal_brdf.xompt", "--lambda", "450,550,650", "--grid",
                           "thetai=0:20:80,thetas=0:10:80,phis=0:30:330")
     table = json.loads(Path(path).read_text())
     checker = validator(SCHEMA)

@@ -1,8 +1,8 @@
-//! Comparing tables: texts equal, numbers within the tolerance of the manifest.
+//! Comparison of tables: texts are equal, numbers agree within a tolerance.
 
 use mist_format::number::number_prefix;
 
-/// How closely numbers must agree.
+/// Allowed differences of numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
     /// Relative to the larger number.
@@ -11,15 +11,15 @@ pub struct Tolerance {
     pub of_row: f64,
     /// Lines that are compared as text.
     pub header_lines: usize,
-    /// Tab-separated columns that do not count for the largest output.
+    /// Tab-separated columns at the beginning that are not outputs.
     pub loop_columns: usize,
 }
 
-/// Compares two tables; the first difference, if there is one.
+/// Compares two tables.
 ///
 /// # Errors
 ///
-/// The place, both values and the relative difference.
+/// The first difference: line, both values and the relative difference.
 pub fn tables(got: &str, want: &str, tolerance: Tolerance) -> Result<(), String> {
     let (got, want): (Vec<_>, Vec<_>) = (got.split('\n').collect(), want.split('\n').collect());
     if got.len() != want.len() {
@@ -67,7 +67,7 @@ fn close(x: f64, y: f64, tolerance: Tolerance, largest: f64) -> Result<(), Strin
     Err(format!("{x:e}, expected {y:e} (relative difference {relative:.1e})"))
 }
 
-/// A piece of a line: a number, or text between numbers.
+/// Part of a line: a number, or text between numbers.
 #[derive(Clone, Debug, PartialEq)]
 enum Cell<'a> {
     Number(f64),
@@ -83,7 +83,7 @@ impl Cell<'_> {
     }
 }
 
-/// Numbers and the words between them; white space separates, its amount does not count.
+/// Numbers and the words between them; any white space separates them.
 fn cells(line: &str) -> Vec<Cell<'_>> {
     line.split(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | ','))
         .filter(|word| !word.is_empty())
@@ -102,7 +102,7 @@ fn cells(line: &str) -> Vec<Cell<'_>> {
         .collect()
 }
 
-/// A listing without what differs from run to run: banner and elapsed time.
+/// A listing without the parts that differ between runs: banner and elapsed time.
 pub fn masked_listing(text: &str) -> String {
     let text = text.replace("\r\n", "\n");
     let lines: Vec<&str> = text.split('\n').filter(|l| !l.starts_with("Elapsed time:")).collect();
@@ -118,20 +118,20 @@ mod tests {
         Tolerance { relative: 1e-12, of_row: 0.0, header_lines: 1, loop_columns: 0 };
 
     #[test]
-    fn equal_numbers_in_other_clothes_are_equal() {
+    fn the_notation_of_a_number_does_not_matter() {
         assert_eq!(tables("a\n1.0\tx\n", "a\n1\tx\n", EXACT), Ok(()));
         assert_eq!(tables("a\nnan\n", "a\n-nan\n", EXACT), Ok(()));
     }
 
     #[test]
-    fn a_difference_is_told_with_its_place() {
+    fn a_difference_is_reported_with_its_line() {
         assert!(tables("a\n1\n2\n", "a\n1\n3\n", EXACT).unwrap_err().starts_with("line 3"));
         assert!(tables("b\n1\n", "a\n1\n", EXACT).is_err());
         assert!(tables("a\nx\n", "a\ny\n", EXACT).is_err());
     }
 
     #[test]
-    fn small_numbers_may_be_judged_by_the_largest_of_their_row() {
+    fn a_tolerance_may_refer_to_the_largest_number_of_the_row() {
         let loose = Tolerance { of_row: 1e-3, ..EXACT };
         assert_eq!(tables("a\n1\t1e-9\n", "a\n1\t0\n", loose), Ok(()));
         assert!(tables("a\n1\t1e-9\n", "a\n1\t0\n", EXACT).is_err());

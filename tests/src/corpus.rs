@@ -1,4 +1,4 @@
-//! The conformance programs: their manifest, their files, one run of one of them.
+//! The conformance programs with their manifest and files, and runs of them.
 
 use std::{
     fs,
@@ -13,12 +13,12 @@ use mist_format::Diagnostic;
 use scattering::Mode;
 use serde::Deserialize;
 
-/// What the manifest says of one program.
+/// Entry of the manifest for one program.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Case {
     /// Name of the program and its folder.
     pub name: String,
-    /// What it is about, such as `shapes/CIRCLE`.
+    /// Subject, such as `shapes/CIRCLE`.
     pub area: String,
     /// `ok`, `mc`, `error` or `hang`.
     pub kind: String,
@@ -53,7 +53,7 @@ pub struct Written {
     pub role: String,
 }
 
-/// What many Monte Carlo runs of NIST's program gave.
+/// Statistics of many Monte Carlo runs of NIST's program.
 #[derive(Clone, Copy, Debug, Deserialize)]
 pub struct MonteCarlo {
     /// Mean.
@@ -76,7 +76,7 @@ pub fn folder() -> PathBuf {
 ///
 /// # Panics
 ///
-/// If there is no readable manifest.
+/// If the manifest cannot be read.
 pub fn cases(folder: &Path) -> Vec<Case> {
     let text = fs::read_to_string(folder.join("manifest.json")).expect("the manifest is there");
     serde_json::from_str::<Manifest>(&text).expect("the manifest has its form").programs
@@ -99,11 +99,11 @@ fn latin1(bytes: &[u8]) -> String {
         .unwrap_or_else(|_| bytes.iter().map(|byte| char::from(*byte)).collect())
 }
 
-/// What came of a run.
-pub type Outcome = Result<(MemorySink, RunSummary), Failure>;
+/// RunOutcome of a run.
+pub type RunOutcome = Result<(MemorySink, RunSummary), Failure>;
 
-/// A program with the folder that its data files are in.
-pub struct Program {
+/// A program with the folder of its data files.
+pub struct ConformanceProgram {
     /// Name of the job.
     pub name: String,
     /// Its text.
@@ -111,7 +111,7 @@ pub struct Program {
     folder: PathBuf,
 }
 
-impl Program {
+impl ConformanceProgram {
     /// The program of `case`, in the folder of the programs.
     ///
     /// # Panics
@@ -135,7 +135,7 @@ impl Program {
         compile(&self.text, Arc::new(Folder(self.folder.clone())), &options)
     }
 
-    /// What `mist check` finds in `mode`.
+    /// Findings of `mist check` in `mode`.
     pub fn check(&self, mode: Mode) -> Vec<Diagnostic> {
         self.compile(mode).map_or_else(|found| found, |job| job.advice())
     }
@@ -144,8 +144,8 @@ impl Program {
     ///
     /// # Errors
     ///
-    /// As the program has them.
-    pub fn run(&self, mode: Mode) -> Outcome {
+    /// Errors of the program.
+    pub fn run(&self, mode: Mode) -> RunOutcome {
         let job = self.compile(mode).map_err(Failure::Program)?;
         let mut sink = MemorySink::default();
         let summary = job.run(&mut sink, &Control::default())?;
@@ -158,7 +158,7 @@ impl Program {
 /// # Panics
 ///
 /// If a folder or a program cannot be read.
-pub fn programs(root: &Path) -> Vec<Program> {
+pub fn programs(root: &Path) -> Vec<ConformanceProgram> {
     let entries = |folder: &Path| {
         let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
         entries.map(|entry| entry.expect("the folder can be read").path()).collect::<Vec<_>>()
@@ -170,7 +170,7 @@ pub fn programs(root: &Path) -> Vec<Program> {
         for file in files.into_iter().filter(is_program) {
             let bytes = fs::read(&file).expect("a program can be read");
             let stem = file.file_stem().unwrap_or_default();
-            found.push(Program {
+            found.push(ConformanceProgram {
                 name: stem.to_string_lossy().into_owned(),
                 text: latin1(&bytes),
                 folder: file.parent().map(Path::to_owned).unwrap_or_default(),
@@ -185,9 +185,9 @@ pub fn programs(root: &Path) -> Vec<Program> {
 ///
 /// # Errors
 ///
-/// As the program has them.
-pub fn run(folder: &Path, case: &Case, mode: Mode) -> Outcome {
-    let Some(program) = Program::read(folder, case) else {
+/// Errors of the program.
+pub fn run(folder: &Path, case: &Case, mode: Mode) -> RunOutcome {
+    let Some(program) = ConformanceProgram::read(folder, case) else {
         let missing = Diagnostic::error("file", mist_format::Span::new(0, 0), "no such program");
         return Err(Failure::Program(vec![missing]));
     };

@@ -1,7 +1,6 @@
-//! Runs whole programs and compares their tables with what NIST's MIST wrote for them; reads the
-//! sources of the workspace for the architecture test.
-//!
-//! `conformance/programs/manifest.json` says how closely; see `conformance/README.md`.
+//! Support for the tests of the whole workspace: conformance programs ([`corpus`], [`compare`]),
+//! programs with inline expectations ([`suite`]) and the scanner of the architecture test
+//! ([`sources`]).
 
 pub mod compare;
 pub mod corpus;

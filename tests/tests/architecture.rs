@@ -32,7 +32,7 @@ enum Outside {
 
 use Outside::{Files, Sockets, Terminals, Threads};
 
-/// What one crate may use and know.
+/// Dependencies that one crate may have.
 struct Rule {
     package: &'static str,
     /// Crates of this workspace that it may depend on.
@@ -115,7 +115,7 @@ impl Outside {
         }
     }
 
-    /// Whether a path such as `std::fs::read` can only be written by code that knows it.
+    /// True if only code that knows it writes a path such as `std::fs::read`.
     fn is_named_by(self, written: &str) -> bool {
         let written = written.trim_start_matches("rayon::");
         let shortened = written.trim_start_matches("std::");

@@ -1,29 +1,29 @@
-//! `mist check` over every program of the repository: where wrong ones are refused, and which
-//! of the others get a warning.
+//! `mist check` on every program of the repository: places of errors, and warnings for valid
+//! programs.
 //!
-//! `UPDATE_GOLDEN=1` rewrites the two lists; every line in them is read by a person.
+//! `UPDATE_GOLDEN=1` rewrites the two lists; a person checks every changed line.
 
 use std::{fmt::Write as _, fs, path::Path};
 
 use mist_engine::Failure;
 use mist_format::{Diagnostic, LineIndex};
-use mist_tests::corpus::{self, Case, Program};
+use mist_tests::corpus::{self, Case, ConformanceProgram};
 use scattering::Mode;
 
-/// Programs that are wrong on a disk only: the tests of the command line run them.
+/// Programs whose error depends on the file system; the tests of the command line run them.
 const ABOUT_THE_DISK: [&str; 2] = ["v_err_files_unwritable", "v_err_missing_program"];
 
-/// Compares `told` with the list `name`, or writes it.
-fn assert_listed(name: &str, told: &str) {
+/// Compares `found` with the list `name`, or writes the list.
+fn assert_listed(name: &str, found_lines: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("check").join(name);
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        fs::write(&path, told).unwrap();
+        fs::write(&path, found_lines).unwrap();
     }
     let listed = fs::read_to_string(&path).unwrap_or_default();
-    for (told, listed) in told.lines().zip(listed.lines()) {
-        assert_eq!(told, listed);
+    for (found_lines, listed) in found_lines.lines().zip(listed.lines()) {
+        assert_eq!(found_lines, listed);
     }
-    assert_eq!(told.lines().count(), listed.lines().count());
+    assert_eq!(found_lines.lines().count(), listed.lines().count());
 }
 
 fn wrong_programs() -> Vec<Case> {
@@ -34,7 +34,7 @@ fn wrong_programs() -> Vec<Case> {
     corpus::cases(&corpus::folder()).into_iter().filter(is_wrong).collect()
 }
 
-/// `line:column code`, and what stands there.
+/// `line:column code`, and the text at this place.
 fn place(found: &Diagnostic, text: &str) -> String {
     let at = LineIndex::new(text).location(text, found.span.start);
     let shown = found.span.of(text).lines().next().unwrap_or("");
@@ -43,11 +43,11 @@ fn place(found: &Diagnostic, text: &str) -> String {
 
 #[test]
 fn every_wrong_program_is_refused_in_its_place() {
-    let mut told = String::new();
+    let mut found_lines = String::new();
     let cases = wrong_programs();
     assert_eq!(cases.len() + ABOUT_THE_DISK.len(), 74);
     for case in cases {
-        let program = Program::of(&case);
+        let program = ConformanceProgram::of(&case);
         for mode in [Mode::Compat, Mode::Sound] {
             let found = match program.run(mode) {
                 Err(Failure::Program(found)) => found,
@@ -60,20 +60,20 @@ fn every_wrong_program_is_refused_in_its_place() {
             match found.first() {
                 Some(first) => {
                     let place = place(first, &program.text);
-                    writeln!(told, "{name} {mode} {place}").unwrap();
+                    writeln!(found_lines, "{name} {mode} {place}").unwrap();
                     assert!(first.help.is_some(), "{name} says what to write: {first:?}");
                 }
-                None => writeln!(told, "{name} {mode} runs").unwrap(),
+                None => writeln!(found_lines, "{name} {mode} runs").unwrap(),
             }
         }
     }
-    assert_listed("refused.txt", &told);
+    assert_listed("refused.txt", &found_lines);
 }
 
 #[test]
 fn checking_finds_what_running_refuses() {
     for case in wrong_programs() {
-        let program = Program::of(&case);
+        let program = ConformanceProgram::of(&case);
         let refused = program.run(Mode::Compat).is_err();
         let found = program.check(Mode::Compat);
         let error = found.iter().any(Diagnostic::is_error);
@@ -83,7 +83,7 @@ fn checking_finds_what_running_refuses() {
 
 #[test]
 fn programs_that_run_get_no_warning_but_those_listed() {
-    let mut told = String::new();
+    let mut found_lines = String::new();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folders = ["conformance/programs", "conformance/bench", "mtab", "../examples"];
     let programs = folders.iter().flat_map(|folder| corpus::programs(&root.join(folder)));
@@ -95,10 +95,10 @@ fn programs_that_run_get_no_warning_but_those_listed() {
         let found = program.check(Mode::Compat);
         for found in found {
             assert!(!found.is_error(), "{}: {found:?}", program.name);
-            writeln!(told, "{} {}", program.name, place(&found, &program.text)).unwrap();
+            writeln!(found_lines, "{} {}", program.name, place(&found, &program.text)).unwrap();
         }
         count += 1;
     }
     assert!(count > 200, "only {count} programs");
-    assert_listed("warned.txt", &told);
+    assert_listed("warned.txt", &found_lines);
 }

@@ -1,5 +1,5 @@
-//! One material, four patches: the colour table of the program, of the material as JSON, and of
-//! the results file are the same, and the one that other programs computed.
+//! One material, four patches: the colour tables of the program, of the material as JSON and of
+//! the results file agree with each other and with a table of other programs.
 //!
 //! The integrals of `mtab/orange_paint.mtab` come from NIST's MIST, its colours from
 //! colour-science.

@@ -1,4 +1,4 @@
-//! Every conformance program gives NIST's tables under compat.
+//! Every conformance program gives NIST's tables in compat mode.
 
 use mist_engine::Failure;
 use mist_tests::{
@@ -8,7 +8,7 @@ use mist_tests::{
 use rayon::prelude::*;
 use scattering::Mode;
 
-/// What is wrong with the outcome of one program.
+/// Compares the outcome of one program with NIST's files; the error is the first difference.
 fn judge(case: &Case) -> Result<(), String> {
     let folder = corpus::folder();
     let outcome = corpus::run(&folder, case, Mode::Compat);
@@ -32,7 +32,7 @@ fn judge(case: &Case) -> Result<(), String> {
     }
 }
 
-/// Samples files have six digits, and noise of x, y and z around zero.
+/// Samples files have six digits, and rounding noise where x, y or z is zero.
 const SAMPLES: Tolerance =
     Tolerance { relative: 2e-5, of_row: 1e-6, header_lines: 1, loop_columns: 0 };
 
@@ -58,7 +58,7 @@ fn monte_carlo(case: &Case, results: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Programs that are wrong on a disk only: the tests of the command line run them.
+/// Programs whose error depends on the file system; the tests of the command line run them.
 const ABOUT_THE_DISK: &[&str] = &["v_err_files_unwritable"];
 
 fn all_pass(area: impl Fn(&str) -> bool + Sync) {

@@ -1,11 +1,11 @@
-//! Defects of NIST's program that no single model has, in both modes.
+//! Defects of NIST's program outside of single models, in both modes.
 
 use std::{collections::BTreeMap, sync::Arc};
 
 use mist_engine::{Control, MemoryFiles, MemorySink, Options, RunSummary, compile};
 use scattering::{Defect, Mode};
 
-/// The last number of the results, and what the run has to tell.
+/// The last number of the results, and the summary of the run.
 fn run(program: &str, mode: Mode) -> (f64, RunSummary) {
     let files = [
         ("gold.txt", "; n, k\n0.4 2.0 0.0\n0.7 2.0 0.0\n"),

@@ -1,15 +1,15 @@
-//! What `docs/language.md` and `docs/accuracy.md` say is what the program does.
+//! The statements of `docs/language.md` and `docs/accuracy.md` that can be checked.
 //!
-//! Blocks that open with `mist` are programs, run without compat; blocks that open with `data NAME`
-//! are files for the programs after them; a block that opens with `text` right behind a program is
-//! the results that it gives, but for white space.
+//! Blocks that begin with `mist` are programs, which run in sound mode. Blocks that begin with
+//! `data NAME` are files for the programs after them. A block that begins with `text` directly after
+//! a program contains its results; white space is not compared.
 
 use std::{collections::BTreeMap, fs, path::Path, sync::Arc};
 
 use mist_engine::{Control, MemoryFiles, MemorySink, Options, compile, quirk};
 use mist_format::{TextDeviation, expr::Function};
 
-/// A fenced block of a document: what stands behind the fence, and its text.
+/// A fenced block of a document: the text after the fence, and the text of the block.
 struct Block {
     info: String,
     text: String,
@@ -95,7 +95,7 @@ fn the_manual_lists_every_habit_and_defect_of_nists_program() {
     }
 }
 
-/// The variants of `Defect`, read from its source: the type has no list of them.
+/// The variants of `Defect`, read from its source, because the type has no list of them.
 fn defects() -> Vec<String> {
     let source = document("scattering/src/defect.rs");
     let (_, body) = source.split_once("pub enum Defect {").expect("the type is there");

@@ -1,4 +1,4 @@
-//! The seeded faults of `faults/` keep in step with the sources.
+//! Every seeded fault of `faults/` refers to an existing line of the sources.
 
 use std::{collections::BTreeMap, fs, path::Path};
 

@@ -1,4 +1,4 @@
-//! Texts of sizes that nobody means are refused with a place and a reason.
+//! Texts of excessive size are refused with a place and a reason.
 
 use std::sync::Arc;
 

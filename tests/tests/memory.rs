@@ -1,6 +1,6 @@
 //! Loops of any length need the memory of one block of steps.
 //!
-//! The only test of its binary, because it looks at the memory of the whole process.
+//! The only test of its binary, because it measures the memory of the whole process.
 
 use std::{collections::BTreeMap, fmt::Write as _, io, sync::Arc};
 
@@ -16,7 +16,7 @@ fn text(vary: &str) -> String {
     )
 }
 
-/// Counts what it gets and keeps nothing.
+/// Counts rows without storing them.
 #[derive(Default)]
 struct Counter {
     bytes: usize,
@@ -29,7 +29,7 @@ impl Sink for Counter {
     }
 }
 
-/// Memory that this process holds, in MiB; nothing where it cannot be known.
+/// Memory of this process in MiB; `None` if the platform does not report it.
 fn held() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
@@ -47,7 +47,7 @@ fn run_up_to(steps: u64, vary: &str, files: MemoryFiles) -> (Result<(), Failure>
     (done, counter.bytes)
 }
 
-/// More than the buffers of one block of steps, less than a hundred thousand kept rows.
+/// More than the buffers of one block of steps, less than a hundred thousand stored rows.
 const FLAT_MIB: f64 = 24.0;
 
 /// A loop of a billion steps, up to the limit.

@@ -1,6 +1,6 @@
 //! The sign cards of `docs/conventions.md`: every number of its table, computed.
 //!
-//! The numbers are read from the document, so that it cannot say anything else than the models.
+//! The expected numbers are read from the document.
 
 use std::f64::consts::FRAC_1_PI;
 

@@ -1,4 +1,4 @@
-//! What sound runs do with the conformance programs.
+//! Conformance programs in sound mode.
 
 use std::{collections::BTreeMap, sync::Arc};
 

@@ -1,6 +1,6 @@
 //! Reference values of models, computed by NIST's library, through materials and `eval`.
 //!
-//! `reference/models.json` says where they come from.
+//! `reference/models.json` states their origin.
 
 use std::{collections::BTreeMap, fs, path::Path};
 

@@ -1,6 +1,6 @@
 //! Visible differences against HDR-VDP 1.7.1: percentages, and means over blocks of 16 × 16 pixels.
 //!
-//! `reference/vdp/vdp.json` says what the tool found in the pictures beside it.
+//! `reference/vdp/vdp.json` has the results of the tool for the pictures in its folder.
 
 use std::{
     fs,

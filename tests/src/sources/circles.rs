@@ -8,7 +8,7 @@ use super::{
 };
 
 /// Modules that use one another in a circle.
-pub struct Circle {
+pub struct ModuleCircle {
     /// Paths of the modules.
     pub modules: Vec<String>,
     /// Uses between them: user, used and place.
@@ -16,7 +16,7 @@ pub struct Circle {
 }
 
 /// The circles of a crate, the largest first.
-pub fn circles(tree: &CrateTree, edges: &Edges) -> Vec<Circle> {
+pub fn circles(tree: &CrateTree, edges: &Edges) -> Vec<ModuleCircle> {
     let mut used: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for &(from, to) in edges.keys() {
         used.entry(from).or_default().push(to);
@@ -52,13 +52,13 @@ fn reach(used: &BTreeMap<usize, Vec<usize>>, start: usize) -> BTreeSet<usize> {
     found
 }
 
-fn circle(tree: &CrateTree, edges: &Edges, group: &BTreeSet<usize>) -> Circle {
+fn circle(tree: &CrateTree, edges: &Edges, group: &BTreeSet<usize>) -> ModuleCircle {
     let name = |index: usize| match tree.modules[index].path.as_str() {
         "" => "(root)".to_owned(),
         path => path.to_owned(),
     };
     let inside = edges.iter().filter(|((a, b), _)| group.contains(a) && group.contains(b));
-    Circle {
+    ModuleCircle {
         modules: group.iter().map(|&index| name(index)).collect(),
         usages: inside.map(|(&(a, b), usage)| (name(a), name(b), usage.clone())).collect(),
     }

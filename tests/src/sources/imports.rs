@@ -33,7 +33,7 @@ impl fmt::Display for Usage {
 /// Edges between the modules of one crate, by index: user → used, with the first place.
 pub type Edges = BTreeMap<(usize, usize), Usage>;
 
-/// What the module declares and imports.
+/// Names that a module declares and imports.
 struct Contents {
     declared: BTreeSet<String>,
     imported: Vec<ImportedName>,
@@ -98,7 +98,7 @@ struct Resolver<'a> {
     crates: Vec<String>,
 }
 
-/// How many re-exports may follow one another.
+/// Longest chain of re-exports.
 const MAX_REEXPORTS: usize = 12;
 
 impl Resolver<'_> {

@@ -18,9 +18,9 @@ pub struct WrittenPath {
 pub struct ImportedName {
     /// The name inside of the module; `*` for everything.
     pub local: String,
-    /// What it names.
+    /// Path that the name stands for.
     pub path: WrittenPath,
-    /// Whether other modules see the name (`pub use`, `pub(crate) use`).
+    /// True if other modules see the name (`pub use`, `pub(crate) use`).
     pub is_public: bool,
 }
 
@@ -106,14 +106,14 @@ fn walk(tokens: TokenStream, found: &mut Vec<WrittenPath>) {
     }
 }
 
-/// Whether the group at `at` belongs to `pub(…)`.
+/// True if the group at `at` belongs to `pub(…)`.
 fn is_restriction(tokens: &[TokenTree], at: usize, delimiter: Delimiter) -> bool {
     let before = at.checked_sub(1).map(|before| &tokens[before]);
     delimiter == Delimiter::Parenthesis
         && matches!(before, Some(TokenTree::Ident(word)) if word == "pub")
 }
 
-/// Whether the name at `at` follows `::` or a dot.
+/// True if the name at `at` follows `::` or a dot.
 fn is_continued(tokens: &[TokenTree], at: usize) -> bool {
     match at.checked_sub(1).map(|before| &tokens[before]) {
         Some(TokenTree::Punct(sign)) if sign.as_char() == '.' => {
