@@ -5,8 +5,8 @@
     tests/benches/side_by_side.py /path/to/nist/MIST target/release/mist
 
 Every program runs --runs times with either binary, in turn, each time in a fresh copy of its folder; the
-time is that of the whole process. The tables must agree as closely as the manifest of the programs says. Without
-NIST's binary (`-`) the medians in the manifest stand in, which were measured on another machine, and the tables
+time is that of the whole process. The tables must agree as closely as the `test.json` of each program says. Without
+NIST's binary (`-`) its medians in the `test.json` files are used, which were measured on another machine, and the tables
 recorded there. Exit status 1 if a table differs.
 """
 
@@ -30,7 +30,8 @@ NUMBER = re.compile(r"[-+]?(?:nan|inf|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
 
 def main():
     args = arguments()
-    cases = json.loads((PROGRAMS / "manifest.json").read_text())["programs"]
+    tests = sorted(PROGRAMS.glob("*/test.json"))
+    cases = [{"name": test.parent.name, **json.loads(test.read_text())} for test in tests]
     print(f"load before: {load()}   threads: {args.threads or os.cpu_count()}   runs: {args.runs}\n")
     print(f"{'program':28} {'NIST s':>9} {'mist s':>9} {'ratio':>8}   table")
     ratios, all_agree = [], True
@@ -50,7 +51,7 @@ def main():
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("nist", help="command of NIST's MIST, or - for the figures of the manifest")
+    parser.add_argument("nist", help="command of NIST's MIST, or - for its figures in test.json")
     parser.add_argument("mist", nargs="?", default="target/release/mist", help="our binary [%(default)s]")
     parser.add_argument("--runs", type=int, default=5, help="runs of each program [%(default)s]")
     parser.add_argument("--threads", type=int, help="threads of mist [one per processor]")

@@ -1,4 +1,4 @@
-//! The conformance programs with their manifest and files, and runs of them.
+//! The conformance programs with their files and tolerances, and runs of them.
 
 use std::{
     fs,
@@ -13,10 +13,11 @@ use mist_format::Diagnostic;
 use scattering::Mode;
 use serde::Deserialize;
 
-/// Entry of the manifest for one program.
+/// A conformance program as the file `test.json` in its folder describes it.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Case {
     /// Name of the program and its folder.
+    #[serde(default)]
     pub name: String,
     /// Subject, such as `shapes/CIRCLE`.
     pub area: String,
@@ -62,24 +63,32 @@ pub struct MonteCarlo {
     pub sigma: f64,
 }
 
-#[derive(Deserialize)]
-struct Manifest {
-    programs: Vec<Case>,
-}
-
 /// The folder with the programs.
 pub fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/programs")
 }
 
-/// Every program of the manifest in `folder`.
+/// Every program below `folder`, in the order of their names.
 ///
 /// # Panics
 ///
-/// If the manifest cannot be read.
+/// If a folder has no readable `test.json`.
 pub fn cases(folder: &Path) -> Vec<Case> {
-    let text = fs::read_to_string(folder.join("manifest.json")).expect("the manifest is there");
-    serde_json::from_str::<Manifest>(&text).expect("the manifest has its form").programs
+    let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    let folders = entries.map(|entry| entry.expect("the folder can be read").path());
+    let mut cases: Vec<Case> =
+        folders.filter(|path| path.is_dir()).map(|path| case(&path)).collect();
+    cases.sort_by(|a, b| a.name.cmp(&b.name));
+    cases
+}
+
+fn case(folder: &Path) -> Case {
+    let file = folder.join("test.json");
+    let text = fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+    let read: Case =
+        serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+    let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Case { name, ..read }
 }
 
 /// The files of one folder.

@@ -76,19 +76,25 @@ fn tree(package: &str, file: PathBuf) -> CrateTree {
     let folder = file.parent().expect("a source is in a folder").to_owned();
     let items = parse(&file);
     let mut tree = CrateTree { package: package.to_owned(), modules: Vec::new() };
-    tree.add(None, "", Place { file, folder }, items);
+    tree.add(None, "", ModuleFile { file, folder }, items);
     tree
 }
 
 /// The file of a module and the folder of its children.
-struct Place {
+struct ModuleFile {
     file: PathBuf,
     folder: PathBuf,
 }
 
 impl CrateTree {
     /// Adds a module and, below it, the modules that it declares; gives its index.
-    fn add(&mut self, parent: Option<usize>, name: &str, place: Place, items: Vec<Item>) -> usize {
+    fn add(
+        &mut self,
+        parent: Option<usize>,
+        name: &str,
+        place: ModuleFile,
+        items: Vec<Item>,
+    ) -> usize {
         let path = match parent.map(|parent| self.modules[parent].path.as_str()) {
             None => String::new(),
             Some("") => name.to_owned(),
@@ -103,7 +109,7 @@ impl CrateTree {
             let (place, items) = match module.content {
                 Some((_, items)) => {
                     let folder = place.folder.join(&name);
-                    (Place { file: place.file.clone(), folder }, items)
+                    (ModuleFile { file: place.file.clone(), folder }, items)
                 }
                 None => {
                     let found = child_file(&place.folder, &name);
@@ -132,11 +138,11 @@ fn split(items: Vec<Item>) -> (Vec<syn::ItemMod>, Vec<Item>) {
     (declared, others)
 }
 
-fn child_file(folder: &Path, name: &str) -> Place {
+fn child_file(folder: &Path, name: &str) -> ModuleFile {
     let beside = folder.join(format!("{name}.rs"));
     let inside = folder.join(name).join("mod.rs");
     let file = if beside.exists() { beside } else { inside };
-    Place { file, folder: folder.join(name) }
+    ModuleFile { file, folder: folder.join(name) }
 }
 
 fn parse(file: &Path) -> Vec<Item> {
