@@ -58,13 +58,13 @@ class Table:
 
     @classmethod
     def read(cls, path):
-        """Reads a file; ValueError if it is cut off or was changed."""
+        """Reads a file; ValueError if it is truncated or was changed."""
         with open(path, encoding="utf-8", newline="") as file:
             return cls.parse(file.read())
 
     @classmethod
     def parse(cls, text):
-        """Reads a text; ValueError if it is cut off or was changed."""
+        """Reads a text; ValueError if it is truncated or was changed."""
         lines = text.splitlines(keepends=True)
         if not lines or lines[0].strip() != "# MIST-TABLE 1":
             raise ValueError("the first line is not '# MIST-TABLE 1'")
@@ -96,7 +96,7 @@ class Table:
         mirrored = self.header["symmetry"][0][0] == "mirror" and phis < 0
         values = self._between(thetai, thetas, -phis if mirrored else phis)
         if mirrored:
-            # U and V change their signs in the mirror at the plane of incidence.
+            # U and V change their signs under reflection at the plane of incidence.
             values = {n: -v if n[-1] in "UV" else v for n, v in values.items()}
         return values if filter is None else filtered(values, filter)
 
@@ -125,7 +125,7 @@ def filtered(values, angle):
 
 
 def _cell(nodes, angle):
-    """The node at or below `angle`, and how far it is on the way to the next; ends are held."""
+    """The node at or below `angle`, and the position between it and the next, limited to the ends."""
     low = min(max(bisect.bisect_right(nodes, angle) - 1, 0), max(len(nodes) - 2, 0))
     if len(nodes) == 1:
         return 0, 0.0
@@ -134,7 +134,7 @@ def _cell(nodes, angle):
 
 
 class Service:
-    """The HTTP service at `url`; `key` is a bearer key if it wants one."""
+    """The HTTP service at `url`; `key` is a bearer key if the service requires one."""
 
     def __init__(self, url, key=None, timeout=600):
         self.url = url.rstrip("/")
@@ -143,13 +143,13 @@ class Service:
         self._known = {}
 
     def put(self, name, material):
-        """Keeps a material: material JSON, or {"program": text, "files": {name: text}}; its hash."""
+        """Stores a material: material JSON, or {"program": text, "files": {name: text}}; its hash."""
         body = json.dumps(material).encode()
         path = f"/v1/materials/{urllib.parse.quote(name)}"
         return json.loads(self._ask("PUT", path, body)[0])["hash"]
 
     def table(self, name, **query):
-        """A colour table; asked again, it travels only if it has changed."""
+        """A colour table; a repeated request transfers it only if it has changed."""
         path = f"/v1/materials/{urllib.parse.quote(name)}/table.mtab{_query(query)}"
         tag, known = self._known.get(path, (None, None))
         body, headers = self._ask("GET", path, tag=tag)
@@ -208,6 +208,6 @@ def _problem(body):
 
 
 def _query(query):
-    """Python keeps `lambda` for itself: `lambda_` stands for it."""
+    """`lambda` is a keyword of Python; `lambda_` replaces it."""
     pairs = {name.rstrip("_"): value for name, value in query.items()}
     return "?" + urllib.parse.urlencode(pairs) if pairs else ""

@@ -1,4 +1,4 @@
-"""A BSDF for Mitsuba 3 that shows tables of `mist export --plugin`: any number of wavelengths.
+"""A BSDF for Mitsuba 3 that reads tables of `mist export --plugin`: any number of wavelengths.
 
     import mitsuba as mi
     mi.set_variant("llvm_ad_spectral_polarized")       # or scalar_spectral_polarized: slow
@@ -27,7 +27,7 @@ import numpy as np
 
 KINDS = {1: "u1", 2: "i1", 3: "<u2", 4: "<i2", 5: "<u4", 6: "<i4", 7: "<u8", 8: "<i8",
          9: "<f2", 10: "<f4", 11: "<f8"}
-# Share of the directions that come from the lobe; the others are cosine-weighted.
+# Fraction of the directions that are sampled from the lobe; the others are cosine-weighted.
 LOBE = 0.9
 
 
@@ -57,7 +57,7 @@ def cache_folder():
 
 
 def fetch(url, folder=None, patience=600.0):
-    """The bytes behind `url`, from the cache if the service says that they are still the same."""
+    """The bytes behind `url`, from the cache if the service answers that they have not changed."""
     folder = Path(folder) if folder else cache_folder()
     stem = folder / hashlib.sha256(url.encode()).hexdigest()
     body, note = stem.with_suffix(".table"), stem.with_suffix(".json")
@@ -88,7 +88,7 @@ def fetch(url, folder=None, patience=600.0):
 
 
 class Axis:
-    """Rising nodes, and places between them."""
+    """Increasing nodes, and positions between them."""
 
     def __init__(self, nodes):
         self.nodes = np.ravel(nodes).astype(np.float32)
@@ -96,7 +96,7 @@ class Axis:
         self.shared = mi.Float(self.nodes) if dr.is_jit_v(mi.Float) else None
 
     def place(self, x):
-        """The node below x and how far x is from it to the next; held at the ends."""
+        """The node below x and the position of x between it and the next, limited to the ends."""
         if self.count == 1:
             return mi.UInt32(0), mi.Float(0)
         if self.shared is None:
@@ -183,7 +183,7 @@ class MistBSDF(mi.BSDF):
         x = dr.normalize(dr.cross(l, v))
         value = mi.mueller.rotate_mueller_basis(
             value, -l, x, mi.mueller.stokes_basis(-l), v, x, mi.mueller.stokes_basis(v))
-        # Mirror images have no azimuth about the half vector, opposite rays no plane.
+        # Specular directions have no azimuth about the half vector, opposite rays no plane.
         known = active & (dr.squared_norm(dr.cross(l, v)) > 1e-12)
         return dr.select(known, value * cos_o, mi.Spectrum(0))
 

@@ -1,4 +1,4 @@
-"""A material on a sphere or a mesh in Mitsuba 3, without and behind a filter.
+"""A material on a sphere or a mesh in Mitsuba 3, without and with a filter.
 
     mist export gold.json --lambda 450,500,550,600,650 -o gold.pbsdf
     python scenes.py gold.pbsdf                              # sphere.png, sphere_dolp.png, …
@@ -27,7 +27,7 @@ def material(mi, table, plugin, alpha):
 
 
 def filter_bsdf(text):
-    """`linear:DEGREES` lets light through that swings at this angle from the horizontal."""
+    """`linear:DEGREES` transmits light that is polarized at this angle to the horizontal."""
     kind, _, degrees = text.partition(":")
     if kind == "linear":
         return {"type": "polarizer", "theta": -float(degrees or 0)}
@@ -55,7 +55,7 @@ def scene(mi, bsdf, args):
         "shape": shape,
     }
     if args.filter != "none":
-        # Before the camera, facing it, its x to the right.
+        # In front of the camera, facing it, with x to the right.
         to_world = look_at([0, 0.45, 4.5], origin, up) @ mi.ScalarTransform4f().scale(0.4)
         found["filter"] = {"type": "rectangle", "to_world": to_world,
                            "bsdf": filter_bsdf(args.filter)}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How long NIST's MIST and mist take to an accuracy.
+"""Time of NIST's MIST and of mist for a required accuracy.
 
     cargo build --release
     tests/benches/accuracy.py /path/to/nist/MIST target/release/mist
@@ -24,7 +24,7 @@ from pathlib import Path
 
 DIFFERENTIALS = [1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8]
 SIDES = [360, 3600, 36000]
-# A grid of more evaluations would only show patience.
+# Finer grids take too long.
 MOST = 2e7
 HEMISPHERE = ("hemisphere", "HEMI END", 6.3)
 CONE = ("cone of 5 degrees", "CIRCLE CENTER = (0.6,0) ALPHA = 5*atan(1)/45 END", 0.024)
@@ -81,7 +81,7 @@ def show(args, case, solid_angle, target):
 
 
 def cheapest(command, case, solid_angle, is_enough):
-    """The cheapest setting that is enough together with all finer ones, its value and its evaluations."""
+    """The cheapest setting for which it and all finer ones suffice, its value and its evaluations."""
     found = []
     for sides in SIDES:
         last = None
@@ -91,7 +91,7 @@ def cheapest(command, case, solid_angle, is_enough):
                 break
             last = (grid(differential, sides), value, evaluations)
         found += [last] if last else []
-    # NIST's program asks every point about every side.
+    # NIST's program tests every point against every side.
     return min(found, key=lambda each: (1000 + each[0]["sides"]) * each[2], default=None)
 
 
@@ -104,7 +104,7 @@ def adaptive(tolerance):
 
 
 def run(command, values):
-    """The integral of the first step, the evaluations that mist tells, and the seconds of the process."""
+    """The integral of the first step, the evaluations that mist prints, and the seconds of the process."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "job.mist").write_text(PROGRAM.format(**values))
         started = time.perf_counter()

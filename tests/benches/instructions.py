@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Counts the instructions of the bench programs on one thread: a measure that no neighbour on the machine disturbs.
+"""Counts the instructions of the bench programs on one thread: a measure that does not depend on the load of the machine.
 
     cargo build --release
     tests/benches/instructions.py target/release/mist            compare with instructions.json

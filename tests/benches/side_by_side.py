@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times mist beside NIST's MIST on the bench programs, on one machine, in one run.
+"""Compares the times of mist and NIST's MIST for the bench programs, on one machine, in one run.
 
     cargo build --release
     tests/benches/side_by_side.py /path/to/nist/MIST target/release/mist
@@ -103,7 +103,7 @@ def results(case):
 
 
 def difference(got, want, case):
-    """What is wrong with a table, or nothing."""
+    """The first difference of a table, or None."""
     got, want = got.rstrip("\n").split("\n"), want.rstrip("\n").split("\n")
     if len(got) != len(want):
         return f"{len(got)} lines, not {len(want)}"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Seeds small faults in the language and in the integration, and shows which tests see them.
+"""Inserts small faults into the language and the integration, and shows the tests that detect them.
 
     python3 tests/faults/run.py            all faults
     python3 tests/faults/run.py 7 31       these only
@@ -44,7 +44,7 @@ pub fn fault(number: usize) -> bool {
 
 
 def seeded(faults, folder):
-    """Puts every fault into the files below `folder`; gives what no longer finds its line."""
+    """Puts every fault into the files below `folder`; returns the faults without a matching line."""
     lost = []
     for number, fault in enumerate(faults, 1):
         path = folder / fault["file"]
@@ -71,7 +71,7 @@ def copied(folder):
 def built(folder):
     """Builds the tests; gives their programs with the folders they run in, in the order of PROGRAMS."""
     command = ["cargo", "test", "--workspace", "--release", "--locked", "--no-run", "--message-format", "json"]
-    # Cargo takes copies of one project for the same: what it builds of this one stays apart.
+    # Cargo identifies copies of one project, so this one has its own target folder.
     target = Path(os.environ.get("CARGO_TARGET_DIR", PROJECT / "target")).resolve() / "faults"
     environment = dict(os.environ, CARGO_TARGET_DIR=str(target))
     lines = subprocess.run(

@@ -2,7 +2,7 @@
 # Load on a service on loopback: tests/load/load.sh MIST [SECONDS]
 # Needs wrk (Debian: wrk), curl and python3. Prints for each kind of request what wrk measured with
 # 32 connections over SECONDS (30), the processor time of the service per request, and the memory of
-# the service; SECONDS=300 shows that it does not grow. Exits with 1 if an answer was an error.
+# the service; SECONDS=300 shows whether it grows. Exits with 1 if a response is an error.
 set -euo pipefail
 mist="$1"
 seconds="${2:-30}"

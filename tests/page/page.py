@@ -1,4 +1,4 @@
-"""Drives the page in headless Chromium: edits, runs, cancels, sees an error, moves the filter.
+"""Drives the page in headless Chromium: edits, runs, cancels, shows an error, moves the filter.
 
     python3 -m venv target/page && target/page/bin/pip install -r tests/page/requirements.txt
     cargo build --release && target/page/bin/python tests/page/page.py target/release/mist
@@ -23,7 +23,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
-#: Longest wait for anything; a loaded machine is slow.
+#: Longest wait for a change of the page, long enough for a loaded machine.
 PATIENCE = 60
 FLAGS = (
     "--headless --no-sandbox --disable-gpu --disable-quic --no-first-run "
@@ -76,7 +76,7 @@ class Page:
         self.settle()
 
     def write(self, program):
-        """A program into the editor, as typing does."""
+        """Enters a program into the editor like typing."""
         script = "arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('input'))"
         self.driver.execute_script(script, self.at("program"), program)
 
@@ -264,7 +264,7 @@ def running(command):
 
 
 def address(server):
-    """Where the server says that it listens."""
+    """The address that the server prints."""
     for line in server.stdout:
         if found := re.search(r"http://[0-9.]+:\d+", line):
             return found.group() + "/"

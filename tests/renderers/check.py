@@ -1,4 +1,4 @@
-"""Loads the files of `mist export` in real readers: python check.py path/to/mist"""
+"""Loads the files of `mist export` in renderers: python check.py path/to/mist"""
 
 import sys
 import tempfile

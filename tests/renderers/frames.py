@@ -1,4 +1,4 @@
-"""Mitsuba's frames in numpy, written apart from the Rust code (docs/formats/pbsdf.md)."""
+"""Mitsuba's frames in numpy, independent of the Rust code (docs/formats/pbsdf.md)."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ def basis(k):
 
 
 def turn(theta):
-    """Stokes vectors in a frame turned by theta from x towards y."""
+    """Stokes vectors in a frame rotated by theta from x towards y."""
     c, s = np.cos(2 * theta), np.sin(2 * theta)
     return np.array([[1, 0, 0, 0], [0, c, s, 0], [0, -s, c, 0], [0, 0, 0, 1.0]])
 

@@ -1,4 +1,4 @@
-"""The command line of mist, called."""
+"""Calls of the command line of mist."""
 
 import json
 import subprocess
@@ -24,7 +24,7 @@ class Mist:
         return done.stdout
 
     def export(self, material, name, *words):
-        """Exports the material (a dict); the path of the file and what mist says."""
+        """Exports the material (a dict); the path of the file and the output of mist."""
         source = self.folder / "material.json"
         source.write_text(json.dumps(material))
         said = self.run("export", source, *words, "-o", name)

@@ -31,7 +31,7 @@ def at_nodes(mist, bsdf, what, report):
     for (l, v), plane in zip(pairs, mist.plane(METAL, pairs, 620)):
         wanted = predicted(plane, l, v)
         errors.append(np.abs(evaluated(bsdf, l, v, 620) - wanted).max() / np.abs(wanted).max())
-    # Places between coarse nodes are found in 32 bits: a little of a bright neighbour comes in.
+    # Positions between coarse nodes are computed in 32 bits, which adds a little of a bright neighbour.
     report(f"plugin, {what}, eval at nodes, 90 %", np.quantile(errors, 0.9), 3e-5)
 
 

@@ -1,4 +1,4 @@
-"""`.pbsdf` in Mitsuba's measured_polarized, and our models against Mitsuba's own."""
+"""`.pbsdf` in Mitsuba's measured_polarized, and comparison with Mitsuba's models."""
 
 import re
 
@@ -58,7 +58,7 @@ def nodes(mist, report):
     for (l, v), plane in zip(pairs, exact):
         wanted = predicted(plane, l, v)
         errors.append(np.abs(evaluated(bsdf, l, v, 550) - wanted).max() / np.abs(wanted).max())
-    # Mitsuba finds its place between the nodes in 32 bits, so the largest error is a little more.
+    # Mitsuba computes positions between the nodes in 32 bits, so the largest error is a little larger.
     report("pbsdf, eval at 200 nodes, median", np.median(errors), 1e-6)
     report("pbsdf, eval at 200 nodes, 95 %", np.quantile(errors, 0.95), 1e-5)
     return bsdf, said
@@ -76,7 +76,7 @@ def between(mist, bsdf, said, report):
     rows.sort()
     light = np.cumsum([weight for _, weight in rows])
     quantile = lambda part: rows[np.searchsorted(light, part * light[-1])][0]
-    # Other directions than those that `mist export` took: the median may be a little larger.
+    # The directions differ from those of `mist export`, so the median may be a little larger.
     report("pbsdf, between nodes, median (bound: stated and a quarter)", quantile(0.5),
            1.25 * stated[0])
     report("pbsdf, between nodes, 95 % (bound: stated)", quantile(0.95), stated[1])
@@ -102,7 +102,7 @@ def own_models(mist, report):
 
 
 def render(mist, bsdf, report):
-    """One pixel of a plane under distant light, without and with a polarizer before the camera."""
+    """One pixel of a plane under distant light, without and with a polarizer in front of the camera."""
     # A node of the table, so that nothing is interpolated.
     l, v = directions(np.radians(-100), np.radians(36), np.radians(22.5))
     up = np.array([0.3, 0.2, 1.0])
@@ -128,7 +128,7 @@ def render(mist, bsdf, report):
             "plane": {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale(50),
                       "bsdf": bsdf}}
         if filter_degrees is not None:
-            # It faces the camera with its x to the right: the axis that passes is at -theta.
+            # The polarizer faces the camera with its x to the right: its transmission axis is at -theta.
             scene["filter"] = {
                 "type": "rectangle", "to_world": look_at(list(2.5 * v), list(5 * v), list(up)),
                 "bsdf": {"type": "polarizer", "theta": filter_degrees}}
@@ -138,7 +138,7 @@ def render(mist, bsdf, report):
     error = np.abs(open_ / open_[0] - np.array([i, q, u, w]) / i).max()
     report("render without filter, Stokes vector over I", error, 1e-4)
     for degrees in (0, 30, 45, 77):
-        # Crossed filters share the light: with one seed they see the same wavelengths.
+        # With the same seed crossed filters use the same wavelengths.
         passed, stopped = pixel(degrees)[0], pixel(degrees + 90)[0]
         angle_2 = -2 * np.radians(degrees)
         wanted = 0.5 * (1 + (q * np.cos(angle_2) + u * np.sin(angle_2)) / i)

@@ -20,7 +20,7 @@ def value(bsdf, l, v, nm):
 
 
 def albedo(bsdf, theta, count=20000):
-    """Directional reflectance for a viewer at theta, by the reader's own sampling."""
+    """Directional reflectance for a viewer at theta, by the sampling of the reader."""
     rng = np.random.default_rng(5)
     v = mi.Vector3f([float(np.sin(theta)), 0.0, float(np.cos(theta))])
     total = 0.0
@@ -33,7 +33,7 @@ def albedo(bsdf, theta, count=20000):
 
 
 def ridges(mist, report):
-    """A material that changes when the sample is turned."""
+    """An anisotropic material."""
     mi.set_variant("scalar_spectral")
     path, _ = mist.export(RIDGES, "ridges.bsdf", "--lambda", "500,550", "--grid", "37x20x64")
     bsdf = mi.load_dict({"type": "measured", "filename": path})

@@ -1,4 +1,4 @@
-"""Asks `mist eval` for Mueller matrices and compares them with what an independent package says."""
+"""Asks `mist eval` for Mueller matrices and compares them with those of an independent package."""
 
 import json
 import subprocess

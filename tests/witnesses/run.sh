@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compares the models with independent programs from PyPI, in environments of their own.
+# Compares the models with independent programs from PyPI, in separate environments.
 #
 #     tests/witnesses/run.sh [FOLDER]
 #

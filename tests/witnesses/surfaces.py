@@ -18,7 +18,7 @@ from asking import PLACES, compare_all, difference, matrices, mueller
 
 SILICON = 4.05 + 0.05j
 WAVELENGTH = 0.532
-# Of the trapezoidal rule along effective indices: the differences fall as its square.
+# Step of the trapezoidal rule along effective indices; the differences decrease with its square.
 STEP = 2e-3
 
 
@@ -62,7 +62,7 @@ def amplitudes(system, particle, highest, theta_i, theta_s, phi, polarization):
                 neff_max=highest,
                 neff_resolution=STEP,
             ).run()
-            # Two polar angles are the fewest it takes.
+            # smuthi needs at least two polar angles.
             field = scattered_far_field(
                 WAVELENGTH,
                 [particle],
@@ -156,7 +156,7 @@ def spheroid_near_silicon():
 WHY = "a trapezoidal rule"
 
 COMPARISONS = [
-    # What, with whom, the tolerance and why it has this size.
+    # Quantity, package, tolerance and its reason.
     ("sphere near silicon, whole Mueller matrix", "smuthi", sphere_near_silicon, 5e-5, WHY),
     ("metallic sphere on a film, whole Mueller matrix", "smuthi", sphere_on_a_film, 5e-5, WHY),
     ("sphere below a face of glass, whole Mueller matrix", "smuthi", sphere_below_glass, 5e-5, WHY),

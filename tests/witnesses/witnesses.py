@@ -164,7 +164,7 @@ def gratings():
 
 
 def spheroids():
-    """A body of revolution in free space, its axis oblique."""
+    """A body of revolution in free space with an oblique axis."""
     wavelength, vertical, horizontal, index = 0.613, 0.121, 0.16, 1.6 + 0.05j
     alpha, beta = 0.6, 0.813
     parameters = [
@@ -199,7 +199,7 @@ def spheroids():
 
 
 COMPARISONS = [
-    # What, with whom, the tolerance and why it has this size.
+    # Quantity, package, tolerance and its reason.
     ("three films on silicon, whole Mueller matrix", "tmm", thin_films, 1e-12, "rounding"),
     ("spheres, whole Mueller matrix", "miepython", mie_spheres, 1e-11, "rounding of recurrences"),
     ("coated sphere, whole Mueller matrix", "treams", coated_spheres, 1e-9, "terms that the rule for their number leaves out"),
