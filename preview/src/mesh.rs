@@ -206,7 +206,7 @@ impl Mesh {
 }
 
 impl BoxNode {
-    /// Whether the ray crosses the box before `limit`.
+    /// True if the ray crosses the box before `limit`.
     fn is_met(&self, ray: &SceneRay, inverse: DVec3, limit: f64) -> bool {
         let a = (self.low - ray.from) * inverse;
         let b = (self.high - ray.from) * inverse;

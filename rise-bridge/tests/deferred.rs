@@ -26,7 +26,7 @@ use scattering::{Basis, Geometry, Mode};
 const TEMPLATE: &str = include_str!("data/balls_deferred.RISEscene");
 const NM: [f64; 3] = [450.0, 550.0, 650.0];
 
-/// What differs between the tests: pixels, camera, fov, the small ball, and where the lamp is.
+/// The variable parts of the tests: pixels, camera, fov, the small ball, and where the lamp is.
 fn scene(width: usize, camera: DVec3, fov: f64, bead: DVec3, lamp: DVec3) -> String {
     let vector = |v: DVec3| format!("{:?} {:?} {:?}", v.x, v.y, v.z);
     TEMPLATE

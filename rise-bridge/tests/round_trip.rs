@@ -1,4 +1,4 @@
-//! What is written can be read again, and what is not whole is refused.
+//! Written tables are read again; truncated tables are refused.
 
 mod laws;
 
@@ -147,7 +147,7 @@ fn a_changed_digit_is_found() {
 fn defects_are_named_with_their_line() {
     let cases = [
         ("# MIST-TABLE 1\n", "# MIST-TABLE 2\n", "line 1: the first line"),
-        ("# white 0.950470559 1", "# white 0.950470559", "line 13: white: 3 numbers belong here"),
+        ("# white 0.950470559 1", "# white 0.950470559", "line 13: white: 3 numbers are expected"),
         ("# space sRGB linear", "# space sRGB", "line 11: space: only linear values"),
         ("# illuminant D65\n", "", "the header has no line \"# illuminant\""),
         ("360 10 750 nm", "360 -10 750 nm", "line 7: wavelengths: the steps"),

@@ -1,23 +1,24 @@
-//! What can be wrong with an expression: its text, or its evaluation.
+//! Errors of expressions: of their text and of their evaluation.
 
-use super::Function;
+use super::functions::Function;
+use super::limits::MAX_TOKENS;
 use crate::diagnostic::Diagnostic;
 use crate::dialect::TextDeviation;
 use crate::span::Span;
 use crate::suggestion::did_you_mean;
 use crate::table::TableError;
 
-/// The text is no expression, or one that the dialect refuses.
+/// An error of the text of an expression.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{kind}")]
 pub struct ExprError {
-    /// Where in the text.
+    /// Location in the text.
     pub span: Span,
-    /// Why.
+    /// The kind of error.
     pub kind: ExprErrorKind,
 }
 
-/// Why a text is no expression. NIST's program calls most of them `Invalid value`.
+/// Kinds of errors of a text. NIST's program reports most of them as `Invalid value`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ExprErrorKind {
     /// Nothing, blanks or a closing parenthesis where an operand should be.
@@ -27,19 +28,19 @@ pub enum ExprErrorKind {
     #[error("a blank ends the expression")]
     TrailingBlank,
     /// A character that begins no operand.
-    #[error("`{found}` is no value")]
+    #[error("`{found}` is not a value")]
     InvalidValue {
         /// The character.
         found: char,
     },
     /// A number that does not fit, such as `1e400`, or is not finished, such as `1e`.
-    #[error("`{text}` is no number")]
+    #[error("`{text}` is not a number")]
     InvalidNumber {
-        /// What looks like a number.
+        /// The incomplete number.
         text: String,
     },
-    /// A character that is no operator (library evaluator only).
-    #[error("`{found}` is no operator")]
+    /// A character that is not an operator (library evaluator only).
+    #[error("`{found}` is not an operator")]
     InvalidOperator {
         /// The character.
         found: char,
@@ -47,17 +48,17 @@ pub enum ExprErrorKind {
     /// A parenthesis without its partner.
     #[error("mismatched parentheses")]
     Parentheses {
-        /// Whether it is `(`.
+        /// True for `(`.
         opening: bool,
     },
     /// NIST's program reads something else than what is written.
     #[error("{}", refusal(*deviation))]
     Refused {
-        /// What NIST's program does.
+        /// The deviation of NIST's program.
         deviation: TextDeviation,
     },
-    /// More than [`super::MAX_TOKENS`] operands, operators and parentheses.
-    #[error("the expression has more than {} operands and operators", super::MAX_TOKENS)]
+    /// More than [`MAX_TOKENS`] operands, operators and parentheses.
+    #[error("the expression has more than {} operands and operators", MAX_TOKENS)]
     TooLong,
 }
 
@@ -74,7 +75,7 @@ fn refusal(deviation: TextDeviation) -> &'static str {
     }
 }
 
-/// What NIST's program does, and what to write instead.
+/// The reading of NIST's program, and the remedy.
 fn explain(deviation: TextDeviation) -> (&'static str, &'static str) {
     match deviation {
         TextDeviation::OperatorLostToBlanks => (
@@ -155,9 +156,9 @@ impl ExprError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{kind}")]
 pub struct EvalError {
-    /// Where in the expression's text.
+    /// Location in the expression's text.
     pub span: Span,
-    /// Why.
+    /// The kind of error.
     pub kind: EvalErrorKind,
 }
 
@@ -175,7 +176,7 @@ pub enum EvalErrorKind {
     UnknownFunction {
         /// The name.
         name: String,
-        /// How many arguments there are.
+        /// The number of arguments.
         arguments: usize,
     },
     /// `@file` takes x and, if wanted, a column.
@@ -183,7 +184,7 @@ pub enum EvalErrorKind {
     FileArguments {
         /// The file.
         file: String,
-        /// How many arguments there are.
+        /// The number of arguments.
         arguments: usize,
     },
     /// The look-up in a file failed.
@@ -191,13 +192,13 @@ pub enum EvalErrorKind {
     Table {
         /// The file.
         file: String,
-        /// Why.
+        /// The kind of error.
         error: TableError,
     },
     /// A vector of several elements where the sound dialect wants a number.
     #[error("{}", refusal(*deviation))]
     Vector {
-        /// What NIST's program does with it.
+        /// The deviation of NIST's program.
         deviation: TextDeviation,
     },
 }

@@ -1,14 +1,15 @@
 //! Running the postfix program of an expression.
 
+use super::compiled::CompiledExpr;
+use super::error::{EvalError, EvalErrorKind};
 use super::memo::Memo;
 use super::op::Action;
-use super::{EvalError, EvalErrorKind, Expr};
 use crate::number;
 use crate::table::TableError;
 
-/// Where an expression finds its variables and files.
+/// The variables and files of an expression.
 pub trait Scope {
-    /// The elements of the variable in this slot (see [`Expr::bind`]), if it is defined.
+    /// The elements of the variable in this slot (see [`Expr::bind`](super::Expr::bind)), if it is defined.
     fn variable(&self, slot: u32) -> Option<&[f64]>;
 
     /// The number in this slot, if it holds a single one.
@@ -59,7 +60,7 @@ impl Stack {
     /// First element and the others of the value of `expr`.
     pub(super) fn run(
         &mut self,
-        expr: &Expr,
+        expr: &CompiledExpr,
         scope: &mut impl Scope,
     ) -> Result<(f64, &[f64]), EvalError> {
         self.values.clear();
@@ -75,7 +76,7 @@ impl Stack {
 
     fn step(
         &mut self,
-        expr: &Expr,
+        expr: &CompiledExpr,
         scope: &mut impl Scope,
         action: Action,
     ) -> Result<(), EvalErrorKind> {

@@ -17,12 +17,12 @@ macro_rules! functions {
                 match self { $(Self::$variant => $name,)* }
             }
 
-            /// How many arguments it takes: 1, 2 or 3.
+            /// The number of arguments: 1, 2 or 3.
             pub fn arity(self) -> usize {
                 match self { $(Self::$variant => $arity,)* }
             }
 
-            /// What it computes.
+            /// A summary of the function.
             pub fn summary(self) -> &'static str {
                 match self { $(Self::$variant => $summary,)* }
             }
@@ -123,7 +123,7 @@ impl Function {
         }
     }
 
-    /// Whether it is a function of one argument that takes longer than to look its value up.
+    /// True for functions of one argument that are slower than a look-up of the value.
     pub(super) fn is_slow(self) -> bool {
         self.arity() == 1 && !matches!(self, Self::Sqrt | Self::Abs | Self::Not)
     }

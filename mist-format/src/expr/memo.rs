@@ -1,7 +1,7 @@
 //! What slow functions gave for the numbers that they were asked before: loops come back to the
 //! same numbers again and again.
 
-use super::Function;
+use super::functions::Function;
 
 /// Values of functions of one number; a value is forgotten when another one comes to its place.
 #[derive(Clone, Debug, Default)]

@@ -1,6 +1,6 @@
 //! The postfix program of an expression and the table of its operators.
 
-use super::Function;
+use super::functions::Function;
 use crate::dialect::TextDeviation;
 use crate::span::Span;
 
@@ -65,15 +65,15 @@ impl Op {
     }
 }
 
-/// One step of the postfix program, and the part of the text it stands for.
+/// One step of the postfix program, and its part of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Operation {
     pub(super) action: Action,
     pub(super) span: Span,
 }
 
-/// What a step does. Values lie on a stack; elements beyond the first of each value go to the
-/// list of the frame, as NIST's evaluator keeps them.
+/// The action of a step. Values are on a stack; elements beyond the first of each value are in
+/// the list of the frame, as in NIST's evaluator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Action {
     /// Pushes a number.

@@ -1,11 +1,11 @@
-//! The short program of an expression of single numbers: what nearly every evaluation runs.
+//! The short program of an expression of single numbers, used by nearly all evaluations.
 //!
 //! Where no name holds a vector and no parenthesis holds a list, frames and lists of the general
 //! machine (`eval.rs`) stay empty; what is left are operations on a short stack whose top is in a
 //! register. The general machine takes over wherever that does not hold, and finds the errors.
 
-use super::Function;
 use super::eval::{Scope, signed};
+use super::functions::Function;
 use super::memo::Memo;
 use super::op::{Action, Op, Operation};
 use crate::number::whole_number;
@@ -55,7 +55,7 @@ pub(super) fn shorten(steps: &[Operation], files: &[String], slots: &[u32]) -> O
     done.then_some(writer.code)
 }
 
-/// What lies on the stack of the general machine, and what it has moved to its lists.
+/// An operand of the general machine: on its stack, or moved to its lists.
 #[derive(Clone, Copy, PartialEq)]
 enum Operand {
     Value,
@@ -64,9 +64,9 @@ enum Operand {
 
 struct ScalarCompiler<'a> {
     code: Vec<Code>,
-    /// What each open frame holds, in the order it was pushed.
+    /// The operands of each open frame, in the order of pushing.
     frames: Vec<Vec<Operand>>,
-    /// How many numbers lie on the stack, all frames together.
+    /// The number of numbers on the stack, in all frames.
     depth: usize,
     files: &'a [String],
     slots: &'a [u32],

@@ -3,19 +3,26 @@
 //! Blanks: one is skipped behind an operator and one before an operand; a sign is looked for
 //! only then; the number reader skips any number of them and takes one more sign. One blank is
 //! skipped behind an operand, one more behind a bare name, and one before an operator; what
-//! comes then is no operator any more, but the next operand.
+//! follows is the next operand, even if it looks like an operator.
 
+mod frame;
+mod interner;
+mod letters;
+
+use super::compiled::CompiledExpr;
+use super::error::{ExprError, ExprErrorKind};
+use super::functions::Function;
+use super::limits::MAX_TOKENS;
 use super::op::{Action, Op, Operation};
-use super::{Expr, ExprError, ExprErrorKind, Function, scalar};
+use super::scalar;
 use crate::dialect::{Dialect, TextDeviation};
 use crate::number::{is_blank, number_prefix};
 use crate::span::Span;
-use std::collections::HashMap;
+use frame::{FrameKind, OpenFrame};
+use interner::Interner;
+use letters::{begins_name, begins_operand, continues_name};
 
-/// Operands, operators and parentheses that an expression may have.
-pub const MAX_TOKENS: usize = 100_000;
-
-/// What differs between the evaluators.
+/// The differences between the evaluators.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rules {
     dialect: Dialect,
@@ -36,7 +43,7 @@ impl Rules {
     }
 }
 
-pub(super) fn compile(text: &str, rules: Rules) -> Result<Expr, ExprError> {
+pub(super) fn compile(text: &str, rules: Rules) -> Result<CompiledExpr, ExprError> {
     let mut scan = Scan::new(text, rules);
     if let Err((start, end, kind)) = scan.run() {
         return Err(ExprError { span: scan.span(start, end), kind });
@@ -45,56 +52,24 @@ pub(super) fn compile(text: &str, rules: Rules) -> Result<Expr, ExprError> {
     let (names, files, calls) = (scan.names.list, scan.files.list, scan.calls.list);
     let steps = scan.steps;
     let short = scalar::shorten(&steps, &files, &slots);
-    Ok(Expr { text: text.to_owned(), steps, short, names, slots, files, calls })
+    Ok(CompiledExpr { text: text.to_owned(), steps, short, names, slots, files, calls })
 }
 
-/// An error between two places of the scanned bytes.
+/// An error between two positions of the scanned bytes.
 type ScanError = (usize, usize, ExprErrorKind);
 
-/// What the scan looks for next.
+/// The next item of the scan.
 enum Next {
     Operand,
     Operator,
     Nothing,
 }
 
-/// An open parenthesis, or the whole expression.
-struct OpenFrame {
-    kind: FrameKind,
-    negative: bool,
-    /// Where the operand begins.
-    start: usize,
-    /// Where its parenthesis stands.
-    parenthesis: usize,
-    /// Operators that still wait for their right side, with their places.
-    pending: Vec<(Op, usize)>,
-    /// Numbers on the value stack.
-    values: usize,
-    /// Steps that may push vectors.
-    vectors: Vec<usize>,
-    /// Where operators bind these vectors, what NIST's program does with them.
-    binding: Option<TextDeviation>,
-}
-
-impl OpenFrame {
-    fn new(kind: FrameKind, negative: bool, start: usize, parenthesis: usize) -> Self {
-        let (pending, vectors) = (Vec::new(), Vec::new());
-        Self { kind, negative, start, parenthesis, pending, values: 0, vectors, binding: None }
-    }
-}
-
-#[derive(Clone, Copy)]
-enum FrameKind {
-    Group,
-    Call(u32),
-    File(u32),
-}
-
 struct Scan<'t> {
     text: &'t str,
     /// The text, for the library without white space.
     bytes: Vec<u8>,
-    /// Where each byte stands in the text; empty if all are there.
+    /// Offset of each byte in the text; empty if they are equal to the indices.
     places: Vec<usize>,
     rules: Rules,
     at: usize,
@@ -176,8 +151,8 @@ impl<'t> Scan<'t> {
         self.name(negative, start)
     }
 
-    /// Takes a sign directly before an operand. A minus that begins a frame is `0 -`; says
-    /// whether one elsewhere belongs to the operand.
+    /// Takes a sign directly before an operand. A minus that begins a frame is `0 -`; true if a
+    /// minus elsewhere belongs to the operand.
     fn sign(&mut self, start: usize) -> Result<bool, ScanError> {
         let sign = self.peek().filter(|byte| matches!(byte, b'+' | b'-'));
         self.at += usize::from(sign.is_some());
@@ -200,7 +175,7 @@ impl<'t> Scan<'t> {
         Ok(())
     }
 
-    /// The failure where an operand should be; `from` is where a number was looked for.
+    /// The error of a missing operand; `from` is the start of the search for a number.
     fn no_operand(&self, from: usize, unfinished: bool) -> ScanError {
         let text = || String::from_utf8_lossy(&self.bytes[from..self.at]).into_owned();
         if unfinished {
@@ -262,7 +237,7 @@ impl<'t> Scan<'t> {
         Ok(Next::Operand)
     }
 
-    /// There is no operator where one should be: the end, a lost operator, or an operand.
+    /// Checks a missing operator: the end, a lost operator, or an operand follows.
     fn check_missing_operator(&self, before: usize) -> Result<(), ScanError> {
         let blanks = self.bytes[self.at..].iter().take_while(|byte| is_blank(**byte)).count();
         let next = self.at + blanks;
@@ -316,7 +291,7 @@ impl<'t> Scan<'t> {
         Ok(Next::Operator)
     }
 
-    /// Marks the vectors of a frame whose operators, in the sound dialect, want numbers.
+    /// Marks the vectors of a frame whose operators, in the sound dialect, need numbers.
     fn bind_vectors(&mut self) {
         let Some(deviation) =
             self.frame().binding.filter(|deviation| self.rules.refuses(*deviation))
@@ -354,7 +329,7 @@ impl<'t> Scan<'t> {
         Ok(())
     }
 
-    /// Computes the waiting operators that bind at least as tightly as `power`.
+    /// Adds the pending operators that bind at least as tightly as `power`.
     fn reduce_above(&mut self, power: u8) -> Result<(), ScanError> {
         while let Some((op, at)) = self.frame_mut().pending.pop_if(|top| top.0.power() >= power) {
             self.frame_mut().values -= 1;
@@ -397,7 +372,7 @@ impl<'t> Scan<'t> {
         self.at += usize::from(self.peek().is_some_and(is_blank));
     }
 
-    /// Whether the frame ends here.
+    /// True if the frame ends here.
     fn ends(&self) -> bool {
         match self.peek() {
             None => true,
@@ -413,7 +388,7 @@ impl<'t> Scan<'t> {
         self.span(at, at + 1).of(self.text).chars().next().unwrap_or(char::REPLACEMENT_CHARACTER)
     }
 
-    /// The place in the text of a range of scanned bytes, widened to whole characters.
+    /// The span in the text of a range of scanned bytes, widened to whole characters.
     fn span(&self, start: usize, end: usize) -> Span {
         let place = |at: usize| match self.places.get(at) {
             Some(place) => *place,
@@ -429,36 +404,5 @@ impl<'t> Scan<'t> {
             last += 1;
         }
         Span::new(first, last.min(self.text.len()))
-    }
-}
-
-fn begins_name(byte: u8) -> bool {
-    byte.is_ascii_alphabetic() || matches!(byte, b'#' | b'$' | b'@')
-}
-
-fn continues_name(byte: u8) -> bool {
-    begins_name(byte) || byte.is_ascii_digit() || matches!(byte, b'.' | b'_')
-}
-
-fn begins_operand(byte: u8) -> bool {
-    begins_name(byte) || byte.is_ascii_digit() || matches!(byte, b'.' | b'(')
-}
-
-/// Distinct names in the order of their first use.
-#[derive(Default)]
-struct Interner {
-    list: Vec<String>,
-    places: HashMap<String, u32>,
-}
-
-impl Interner {
-    fn intern(&mut self, name: &str) -> u32 {
-        if let Some(place) = self.places.get(name) {
-            return *place;
-        }
-        let place = self.list.len() as u32;
-        self.places.insert(name.to_owned(), place);
-        self.list.push(name.to_owned());
-        place
     }
 }

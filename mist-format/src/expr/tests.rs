@@ -3,6 +3,7 @@
 //! The numbers behind `=>` were computed by NIST's MIST 4.22a.
 
 use super::*;
+use crate::dialect::Dialect;
 use crate::dialect::TextDeviation;
 use crate::table::TableError;
 use std::collections::HashMap;
@@ -346,8 +347,7 @@ fn short_programs_give_what_the_general_machine_gives() {
                     let mut scope = Names(vec![vec![2.9], vec![2.5], vec![5.4, 6.6], vec![]]);
                     let mut stack = Stack::default();
                     let quick = expr.eval(&mut scope, &mut stack);
-                    short += u32::from(expr.short.is_some());
-                    expr.short = None;
+                    short += u32::from(expr.without_short_program());
                     let general = expr.eval(&mut scope, &mut stack);
                     let bits =
                         |value: Value| value.as_slice().iter().map(|x| x.to_bits()).collect();

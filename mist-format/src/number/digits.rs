@@ -129,8 +129,8 @@ fn scaled(x: f64, p: i32) -> Option<u64> {
     }
 }
 
-/// What the upper 128 bits of a product may lack: 2 units of the power times a mantissa below
-/// 2^64, and the word that is dropped.
+/// Error bound of the upper 128 bits of a product: 2 units of the power times a mantissa below
+/// 2^64, and the dropped word.
 const ERROR: u128 = 4;
 
 /// x = mantissa 2^exponent with the upper bit of the mantissa set, for a finite x > 0.
@@ -286,7 +286,7 @@ mod tests {
         (mantissa.replace('.', ""), exponent.parse().unwrap())
     }
 
-    /// Whether the fast way answered.
+    /// True if the fast path gives the digits.
     fn agrees(x: f64, count: usize) -> bool {
         let Some(digits) = Digits::of(x, count) else { return false };
         assert_eq!((digits.as_str().to_owned(), digits.exponent), slow(x, count), "{x:e} {count}");

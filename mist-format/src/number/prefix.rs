@@ -1,23 +1,23 @@
-//! Reading a number from the beginning of a text as a C++ stream does.
+//! Reads a number from the beginning of a text as a C++ stream does.
 //!
-//! The stream first takes the longest run of characters that looks like a number and then
-//! converts it; a run that does not convert (`3e`, `.`, `1e400`) is taken all the same.
+//! The stream takes the longest run of characters that resembles a number and converts it; a run
+//! that does not convert (`3e`, `.`, `1e400`) is consumed too.
 
-/// What a C++ stream does with `>> double`.
+/// The result of `>> double` of a C++ stream.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NumberPrefix {
     /// The number, if the run converts to a finite one.
     pub value: Option<f64>,
-    /// Bytes taken: white space, sign and everything that looked like a number.
+    /// Bytes taken: white space, sign and all characters of the run.
     pub taken: usize,
-    /// Where the run begins, behind the white space.
+    /// Start of the run, after the white space.
     pub start: usize,
     /// The sign, if one was taken.
     pub sign: Option<u8>,
 }
 
 impl NumberPrefix {
-    /// Whether more than white space and a sign was taken.
+    /// True if more than white space and a sign was taken.
     pub fn has_body(&self) -> bool {
         self.taken > self.start + usize::from(self.sign.is_some())
     }
@@ -49,7 +49,7 @@ pub fn number_prefix(text: &[u8]) -> NumberPrefix {
     NumberPrefix { value, taken: at, start, sign }
 }
 
-/// What a C++ stream does with `>> int`.
+/// The result of `>> int` of a C++ stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IntegerPrefix {
     /// The number, if there are digits and they fit.

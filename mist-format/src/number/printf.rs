@@ -29,10 +29,10 @@ pub enum FormatError {
     /// A `%` without an end.
     #[error("`{conversion}` is not a whole conversion; write %% for a percent sign")]
     Incomplete {
-        /// What there is.
+        /// The incomplete conversion.
         conversion: String,
     },
-    /// Width or precision is out of all measure.
+    /// Width or precision exceeds the limit.
     #[error("`{conversion}` is wider than {WIDEST} characters")]
     TooWide {
         /// The conversion as written.

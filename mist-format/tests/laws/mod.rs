@@ -1,4 +1,4 @@
-//! What every text keeps to, whatever stands in it; asked by the property tests and by `fuzz/`.
+//! Laws of all texts, for the property tests and for `fuzz/`.
 //!
 //! Each law takes any text, reads it and panics if what was read breaks the law. That reading
 //! itself does not panic is the first law of all.
@@ -67,7 +67,7 @@ impl Scope for FourNames {
     }
 }
 
-/// What the sound dialect computes NIST's program computes alike; errors have places.
+/// Values of the sound dialect equal those of the compat dialect; errors have locations.
 pub fn expression(text: &str) {
     let [compat, sound] = DIALECTS.map(|dialect| value(Expr::compile(text, dialect), text));
     if let Some(sound) = sound {
@@ -172,7 +172,7 @@ pub fn stack(text: &str) {
     }
 }
 
-/// What is converted is a program, and converting it again changes nothing.
+/// A converted text is a program, and converting it again changes nothing.
 pub fn archive(bytes: &[u8]) {
     let Ok(text) = convert(bytes) else { return };
     if text.len() <= MAX_PROGRAM_BYTES {

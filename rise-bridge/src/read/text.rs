@@ -154,7 +154,7 @@ impl<'a> TextTable<'a> {
         Ok(self.line(key)?.value.to_owned())
     }
 
-    /// Where the column `name` stands.
+    /// The index of the column `name`.
     ///
     /// # Errors
     ///

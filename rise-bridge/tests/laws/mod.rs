@@ -1,4 +1,4 @@
-//! What every text of a table or a spectrum keeps to; asked by the tests and by `fuzz/`.
+//! Laws of all texts of tables and spectra, for the tests and for `fuzz/`.
 //!
 //! The checksum and the numbers of rows are put right first, so that a changed text is read
 //! beyond them.
@@ -12,7 +12,7 @@ use rise_bridge::write::{self, Style};
 /// Every digit of an f64.
 const EXACT: Style = Style { digits: 17, xyz: false };
 
-/// What is read as `.mtab` is written and read again without loss.
+/// A table read from `.mtab` is written and read again without loss.
 pub fn mtab(text: &str) {
     let Some(table) = mended(text, read::mtab) else { return };
     let written = write::mtab(&table, EXACT).expect("what was read can be written");
@@ -33,7 +33,7 @@ pub fn mtab(text: &str) {
     assert!(!write::plot(&again).contains("NaN"), "of\n{text}");
 }
 
-/// What is read as `.mspd` has one finite value for each wavelength in each row.
+/// Spectra read from `.mspd` have one finite value per wavelength in each row.
 pub fn mspd(text: &str) {
     let Some(spectra) = mended(text, read::mspd) else { return };
     for row in &spectra.rows {
@@ -42,7 +42,7 @@ pub fn mspd(text: &str) {
     }
 }
 
-/// What `read` makes of `text`, once rows are counted and summed as they are.
+/// The result of `read` for `text` with corrected number of rows and checksum.
 fn mended<T>(text: &str, read: impl Fn(&str) -> Result<T, ReadError>) -> Option<T> {
     let mut text = text.to_owned();
     for _ in 0..3 {
