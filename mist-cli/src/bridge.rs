@@ -77,7 +77,7 @@ pub(super) struct BridgeArgs {
         requires = "deferred"
     )]
     incident: String,
-    /// Where that vector's Q > 0 is: perpendicular to the plane of incidence, or horizontal.
+    /// Direction of Q > 0 of that vector: perpendicular to the plane of incidence, or horizontal.
     #[arg(long, value_enum, default_value_t, value_name = "BASIS", requires = "deferred")]
     incident_basis: LampBasisName,
     /// Render the scenes with the program that RISE_BIN names.

@@ -17,9 +17,9 @@ Examples:
   mist key --hash ci < key.txt >> keys
   curl -H \"Authorization: Bearer $KEY\" http://127.0.0.1:8650/v1/materials")]
 pub(super) struct KeyArgs {
-    /// Who has the key.
+    /// Name of the holder of the key.
     name: String,
-    /// What it allows: read looks at what is there, run changes and computes.
+    /// Scopes of the key: read for requests without changes, run for changes and computations.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "read,run")]
     scopes: Vec<Scopes>,
     /// Take the key from standard input.

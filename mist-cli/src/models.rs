@@ -69,7 +69,7 @@ fn title(family: Family) -> &'static str {
     }
 }
 
-/// What a parameter holds, for people.
+/// Kind of a parameter, as text.
 fn kind(kind: spec::ParameterKind) -> String {
     match kind {
         spec::ParameterKind::Number => "number".into(),

@@ -63,7 +63,7 @@ pub(super) struct PreviewArgs {
     /// Stokes vector of the lamps; 1,0.2,0,0 is 60 % perpendicular and 40 % parallel.
     #[arg(long, default_value = "1,0,0,0", value_name = "I,Q,U,V", allow_hyphen_values = true)]
     incident: String,
-    /// Where that vector's Q > 0 is: perpendicular to the plane of incidence, or horizontal.
+    /// Direction of Q > 0 of that vector: perpendicular to the plane of incidence, or horizontal.
     #[arg(long, value_enum, default_value_t, value_name = "BASIS")]
     incident_basis: LampBasisName,
     /// none, linear:ANGLE (degrees from the horizontal, counter-clockwise), left or right.
@@ -260,7 +260,7 @@ impl PreviewArgs {
     }
 }
 
-/// What `--filter` names.
+/// Filter that `--filter` names.
 pub(super) fn filter(text: &str) -> Result<Polarization, CommandError> {
     match text {
         "none" => return Ok(Polarization::All),

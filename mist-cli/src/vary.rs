@@ -1,4 +1,4 @@
-//! What commands have in common that run a program with other values of its variables.
+//! Common part of the commands that run a program with other values of its variables.
 
 use std::path::PathBuf;
 

@@ -53,7 +53,7 @@ fn mist(dir: &TempDir, args: &[&str]) -> Command {
     command
 }
 
-/// What a command says; it must end with `code`.
+/// Output of a command that must end with `code`.
 fn said(mut command: Command, code: i32) -> String {
     let output = command.output().unwrap();
     let text = [output.stdout, output.stderr].concat();

@@ -98,7 +98,7 @@ pub enum MergeError {
 }
 
 impl MergeError {
-    /// Whether the shards are at fault, and not a disk that failed.
+    /// True if the shards are at fault, and not a disk that failed.
     pub fn is_refusal(&self) -> bool {
         !matches!(self, Self::Read { .. } | Self::Write { .. })
     }

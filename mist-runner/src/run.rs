@@ -59,7 +59,7 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// Whether the request is at fault, and not the computation or a disk.
+    /// True if the request is at fault, and not the computation or a disk.
     pub fn is_refusal(&self) -> bool {
         matches!(
             self,

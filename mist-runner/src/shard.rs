@@ -112,7 +112,7 @@ impl ShardLabel {
         }
     }
 
-    /// Whether both belong to the same run.
+    /// True if both belong to the same run.
     pub fn is_same_run(&self, other: &Self) -> bool {
         let shard = Shard { number: 1, of: self.shard.of };
         Self { shard, ..self.clone() }
@@ -208,7 +208,7 @@ impl JournalReader {
         self.next - self.label.shard.steps(self.label.steps).start
     }
 
-    /// Whether the last line was read.
+    /// True if the last line was read.
     pub fn is_complete(&self) -> bool {
         self.ended
     }
@@ -245,7 +245,7 @@ pub struct JournalWriter {
     file: BufWriter<File>,
     /// The first step that is not finished.
     pub next: u64,
-    /// Whether the journal was complete when it was opened.
+    /// True if the journal was complete when it was opened.
     pub complete: bool,
     texts: [String; 3],
 }

@@ -24,7 +24,7 @@ pub struct TableQuery {
     pub incident: Option<String>,
     /// The basis of the exit light; `psps`.
     pub basis: Option<String>,
-    /// Whether Q, U and V follow I.
+    /// True if Q, U and V follow I.
     pub stokes: bool,
     /// Light, observer, space, adaptation, quantity, filters.
     pub colours: ColourNames,

@@ -49,7 +49,7 @@ pub enum FormatWriter {
 pub struct ColourWriter {
     /// The name in the section COLOR whose value is the name of the file.
     pub key: ColourKey,
-    /// Whether each Stokes component has a file of its own.
+    /// True if each Stokes component has a file of its own.
     pub by_component: bool,
     /// The text; of the Stokes component 0 … 3 for I, Q, U, V if they have files of their own.
     pub text: fn(&ColourTable, usize, Style) -> Result<String, WriteError>,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// How a model is built: with sound physics, or as NIST's library computes it.
+/// Mode in which a model is built: with sound physics, or as NIST's library computes it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Mode {
     /// Sound physics.
@@ -146,7 +146,7 @@ impl Defect {
 }
 
 impl Defect {
-    /// Whether it changes results by more than 10⁻⁹ in more than single directions; sound runs do
+    /// True if it changes results by more than 10⁻⁹ in more than single directions; sound runs do
     /// not mention others.
     pub fn is_noticeable(self) -> bool {
         !matches!(

@@ -53,12 +53,12 @@ impl Side {
         self as i32
     }
 
-    /// Whether the incident light travels upwards, inside the substrate.
+    /// True if the incident light travels upwards, inside the substrate.
     pub fn from_below(self) -> bool {
         matches!(self, Self::UpDown | Self::UpUp)
     }
 
-    /// Whether the scattered light travels downwards, inside the substrate.
+    /// True if the scattered light travels downwards, inside the substrate.
     pub fn to_below(self) -> bool {
         matches!(self, Self::DownDown | Self::UpDown)
     }
@@ -76,7 +76,7 @@ impl Angle {
         if self.0.is_nan() { sin.atan2(cos) } else { self.0 }
     }
 
-    /// Whether it is less than π/2 from the normal.
+    /// True if it is less than π/2 from the normal.
     fn is_above(self, cos: f64) -> bool {
         // The largest cosine whose angle rounds to π/2.
         const HORIZON: f64 = 1.722_546_424_198_833e-16;
@@ -84,7 +84,7 @@ impl Angle {
     }
 }
 
-/// Whether the polar angle that follows from this cosine is less than π/2.
+/// True if the polar angle that follows from this cosine is less than π/2.
 pub fn is_above(cos: f64) -> bool {
     Angle::FOLLOWS.is_above(cos)
 }
@@ -135,7 +135,7 @@ impl Incidence {
         self.rotation.radians(self.sin_rotation, self.cos_rotation)
     }
 
-    /// Whether the polar angle is less than π/2.
+    /// True if the polar angle is less than π/2.
     pub fn is_above(&self) -> bool {
         self.theta.is_above(self.cos)
     }
@@ -203,7 +203,7 @@ impl Direction {
         self.phi.radians(self.sin_phi, self.cos_phi)
     }
 
-    /// Whether the polar angle is less than π/2 on either side of the normal.
+    /// True if the polar angle is less than π/2 on either side of the normal.
     pub fn is_above(&self) -> bool {
         self.theta.is_above(self.cos)
     }

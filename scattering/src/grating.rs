@@ -81,7 +81,7 @@ pub const COMMON: &[Parameter] = &[
     Parameter::index("medium_t", "(4.05,0.05)", "Index of the medium below"),
 ];
 
-/// What every line grating has.
+/// Parameters of every line grating.
 #[derive(Clone, Debug)]
 pub struct GratingCommon {
     /// Period, µm.

@@ -17,7 +17,7 @@ pub use elementary::{sin_cos_of_half_turn, sinh_cosh};
 use num_complex::Complex64;
 pub use wide::{LaneKernel, SimdLevel, dispatch};
 
-/// How many numbers go side by side.
+/// Number of lanes.
 pub const WIDTH: usize = 8;
 
 /// The group of `rest`, fewer than [`WIDTH`], and the last of them again; nothing of nothing.

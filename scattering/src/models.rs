@@ -25,7 +25,7 @@ pub mod sum;
 ///
 /// Everything that depends on parameters alone was computed when it was built.
 pub trait Brdf: Send + Sync {
-    /// What every model has: wavelength, substrate, side.
+    /// Parameters of every model: wavelength, substrate, side.
     fn common(&self) -> &CommonParameters;
 
     /// Mueller BRDF (1/sr) in the model's own basis.
@@ -69,12 +69,12 @@ pub trait Brdf: Send + Sync {
         Vec::new()
     }
 
-    /// Whether [`Brdf::jones`] answers.
+    /// True if [`Brdf::jones`] answers.
     fn is_coherent(&self) -> bool {
         false
     }
 
-    /// Whether a matrix takes less time than to find it where it was kept.
+    /// True if a matrix takes less time than to find it where it was kept.
     fn is_quick(&self) -> bool {
         false
     }
@@ -106,7 +106,7 @@ fn sum_of(
     sum
 }
 
-/// Whether all directions are above the horizon; without a jump for each.
+/// True if all directions are above the horizon; without a jump for each.
 fn all_above(directions: &[Direction]) -> bool {
     directions.iter().fold(true, |above, to| above & to.is_above())
 }
@@ -120,14 +120,14 @@ pub struct LobeSupport {
     pub half_angle: f64,
 }
 
-/// What every model has.
+/// Parameters of every model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommonParameters {
     /// Vacuum wavelength, µm.
     pub lambda: f64,
     /// Index of the substrate at that wavelength.
     pub substrate: Complex64,
-    /// Where the light comes from and goes to.
+    /// Sides of the incident and of the scattered light.
     pub side: Side,
 }
 
@@ -254,7 +254,7 @@ pub fn nested(
 /// A prepared model with the horizon and the bases: what users of models hold.
 pub struct Model {
     brdf: Box<dyn Brdf>,
-    /// How bases are changed.
+    /// Change of bases.
     mode: Mode,
 }
 
@@ -264,12 +264,12 @@ impl Model {
         Self { brdf, mode }
     }
 
-    /// What every model has.
+    /// Parameters of every model.
     pub fn common(&self) -> &CommonParameters {
         self.brdf.common()
     }
 
-    /// Whether a matrix takes less time than to find it where it was kept.
+    /// True if a matrix takes less time than to find it where it was kept.
     pub fn is_quick(&self) -> bool {
         self.brdf.is_quick()
     }

@@ -1,4 +1,4 @@
-//! What a build tells beside its result: defects that it stepped around, limits that it passed.
+//! Notices of a build besides its result: defects that it avoided, limits that it exceeded.
 
 use std::fmt;
 
@@ -27,7 +27,7 @@ pub enum ModelLimit {
 }
 
 impl ModelLimit {
-    /// What is wrong, and what could be done.
+    /// Description of the problem and its remedy.
     pub fn describe(self) -> &'static str {
         match self {
             Self::ParticlesTooDense => {

@@ -1,4 +1,4 @@
-//! What interfaces and films do to light, and the material data that enter.
+//! Reflection and transmission by interfaces and films, and the material data for them.
 
 pub mod film;
 pub mod first_order;

@@ -241,7 +241,7 @@ impl LayerCascade {
     }
 }
 
-/// Where the diffracted waves go.
+/// Side of the diffracted waves.
 struct ExitMedium<'a> {
     wave: &'a IncidentWave,
     index: f64,

@@ -51,7 +51,7 @@ pub trait Scatterer: Send + Sync {
 
 /// A particle that looks the same from every side: only the scattering angle counts.
 pub trait SphericalScatterer: Send + Sync {
-    /// Where it lies.
+    /// Position.
     fn surroundings(&self) -> &HostMedium;
 
     /// Amplitude matrix at the cosine of the scattering angle, ∥ in the place of s and ⊥ in that

@@ -52,7 +52,7 @@ pub fn ladder(start: f64, end: f64, step: f64) -> impl Iterator<Item = (f64, f64
 /// The most rungs that a [`ladder`] of a model may have.
 pub const MOST_RUNGS: f64 = 1e5;
 
-/// Whether a ladder rises and has at most [`MOST_RUNGS`] rungs.
+/// True if a ladder rises and has at most [`MOST_RUNGS`] rungs.
 pub fn is_ladder(start: f64, end: f64, step: f64) -> bool {
     let rises = start > 0.0 && step > 0.0 && end.is_finite();
     rises && (end / start).ln() < MOST_RUNGS * step.ln_1p()

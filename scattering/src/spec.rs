@@ -138,7 +138,7 @@ pub const ABSTRACT: &[(&str, &str)] = &[
     ("Gridded_CrossGrating", "CrossGrating"),
 ];
 
-/// What a parameter holds.
+/// Kind of the value of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterKind {
     /// A real number.
@@ -166,13 +166,13 @@ pub enum ParameterKind {
 pub struct Parameter {
     /// Name in a program.
     pub name: &'static str,
-    /// What it holds.
+    /// Kind of its value.
     pub kind: ParameterKind,
     /// Default, as a program would write it.
     pub default: &'static str,
     /// Unit; `1` for a pure number, empty where there is none.
     pub unit: &'static str,
-    /// What it means.
+    /// Meaning.
     pub doc: &'static str,
 }
 
@@ -242,7 +242,7 @@ impl Laws {
         Self { reciprocal: false, mirror: false, realizable: false, passive: false };
 }
 
-/// What a class says of itself.
+/// Description of a class.
 #[derive(Debug)]
 pub struct Class {
     /// Name in a program.
@@ -276,7 +276,7 @@ impl Class {
 /// A class together with the function that builds it.
 #[derive(Debug)]
 pub struct Spec<T: ?Sized> {
-    /// What the class says of itself.
+    /// Description of the class.
     pub class: Class,
     /// Builds a prepared instance; nothing that depends on parameters alone is left for later.
     pub build: fn(&ParameterNode) -> Result<Box<T>, ParameterError>,
@@ -329,7 +329,7 @@ impl fmt::Debug for ParameterValue {
     }
 }
 
-/// What a build has to tell; shared by a node and all below it.
+/// Notices of a build, shared by a node and all below it.
 pub type SharedNotices = Arc<Mutex<BTreeSet<Notice>>>;
 
 /// A class with a typed value for each of its parameters: all that is needed to build it.
@@ -341,7 +341,7 @@ pub struct ParameterNode {
     pub values: Vec<ParameterValue>,
     /// Sound or compat.
     pub mode: Mode,
-    /// Where a build notes the defects it stepped around and the limits it passed.
+    /// Collects the defects that a build avoided and the limits that it exceeded.
     pub met: SharedNotices,
 }
 
@@ -351,7 +351,7 @@ pub struct ParameterNode {
 pub struct ParameterError {
     /// Dotted name, from the model on which the build started.
     pub parameter: String,
-    /// What is wrong and what would be accepted.
+    /// Description of the error and of accepted values.
     pub problem: String,
 }
 
@@ -401,7 +401,7 @@ impl ParameterNode {
         Ok(self)
     }
 
-    /// Whether this build reproduces `defect`; a sound build notes that it met it.
+    /// True if this build reproduces `defect`; a sound build notes that it met it.
     pub fn reproduces(&self, defect: Defect) -> bool {
         match self.mode {
             Mode::Compat => true,
@@ -536,7 +536,7 @@ pub fn find_class(name: &str) -> Option<&'static Class> {
     Family::ALL.iter().flat_map(|family| family.classes()).find(|class| class.name == name)
 }
 
-/// Whether the class called `name` is `base` or stands below it.
+/// True if the class called `name` is `base` or stands below it.
 pub fn is_below(name: &str, base: &str) -> bool {
     if name == base {
         return true;

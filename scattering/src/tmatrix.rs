@@ -150,7 +150,7 @@ pub(crate) fn solve(a: &ComplexMatrix, b: &ComplexMatrix) -> ComplexMatrix {
     a.partial_piv_lu().solve(b)
 }
 
-/// Whether every element is a finite number.
+/// True if every element is a finite number.
 pub(crate) fn is_finite(matrix: &ComplexMatrix) -> bool {
     (0..matrix.ncols()).all(|column| matrix.col(column).iter().all(|z| z.is_finite()))
 }

@@ -141,7 +141,7 @@ const GEOMETRIES: [Geometry; 3] = [
     Geometry { theta_i: 1.3, theta_s: 1.3, phi_s: 3.0, rotation: -2.0 },
 ];
 
-/// What is wrong with the model that `node` describes.
+/// Faults of the model that `node` describes.
 fn judge(node: &ParameterNode) -> Option<String> {
     let outcome = catch_unwind(AssertUnwindSafe(|| match models::build(node) {
         Err(error) if error.parameter.is_empty() => Some("names no parameter".to_owned()),
@@ -155,7 +155,7 @@ fn judge(node: &ParameterNode) -> Option<String> {
     outcome.unwrap_or_else(|_| Some("panics".to_owned()))
 }
 
-/// How many sets of parameters are tried: fewer where one of them may take a second.
+/// Number of tested sets of parameters: fewer if one of them may take a second.
 fn draws(class: &str) -> usize {
     match class {
         "CrossRCW_BRDF_Model" | "Polydisperse_Sphere_BRDF_Model" => 20,

@@ -20,7 +20,7 @@ fn the_zernike_expansion_agrees_with_the_library() {
     check(&["ZernikeExpansion_BRDF_Model"]);
 }
 
-/// What a detector of sensitivity `pol` sees of light `inpol`, per 1/sr.
+/// Value of a detector of sensitivity `pol` for light `inpol`, per 1/sr.
 fn seen(
     class: &str,
     params: &[(&str, &str)],

@@ -279,7 +279,7 @@ fn most_returned(model: &Model, theta_i: f64) -> f64 {
     sum[(0, 0)] + polarized
 }
 
-/// Whether the coherency matrix H = ¼ Σ m_ij σ_i ⊗ σ_j* has no eigenvalue below
+/// True if the coherency matrix H = ¼ Σ m_ij σ_i ⊗ σ_j* has no eigenvalue below
 /// −[`REALIZABLE`]·M00: whether H plus that much of the unit matrix has a Cholesky factor.
 fn is_realizable(m: &Mueller) -> bool {
     let shift = REALIZABLE * m[(0, 0)];

@@ -1,4 +1,4 @@
-//! What slow functions gave for the numbers that they were asked before: loops come back to the
+//! Cache of values of slow functions: loops come back to the
 //! same numbers again and again.
 
 use super::functions::Function;
@@ -11,7 +11,7 @@ pub(super) struct Memo {
     asked: usize,
 }
 
-/// How many places there are, as a power of two.
+/// Binary logarithm of the number of places.
 const BITS: u32 = 12;
 /// So many questions are answered without a memory, which most evaluations never need.
 const FEW: usize = 256;

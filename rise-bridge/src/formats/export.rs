@@ -26,9 +26,9 @@ pub struct ExportRequest {
     pub nodes: Option<usize>,
     /// Behind a filter: `s` or `p` (`rise`).
     pub filter: Option<String>,
-    /// Whether the material computes NIST's numbers, for the description inside the table.
+    /// True if the material computes NIST's numbers, for the description inside the table.
     pub compat: bool,
-    /// Whether the grid `auto:PERCENT` is allowed, and the error of interpolation is estimated.
+    /// True if the grid `auto:PERCENT` is allowed, and the error of interpolation is estimated.
     pub estimate_error: bool,
     /// Most bytes of a table, if it is made in memory.
     pub max_bytes: Option<f64>,

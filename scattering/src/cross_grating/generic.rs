@@ -31,7 +31,7 @@ use crate::{
 
 const OWN: &[Parameter] = &[Parameter::integer("nlayers", "10", "Number of slices, about")];
 
-/// How programs name, parameterize and build a [`GenericCrossGrating`].
+/// Name, parameters and constructor of a [`GenericCrossGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Generic_CrossGrating",

@@ -15,7 +15,7 @@ const OWN: &[Parameter] = &[
     Parameter::number("zeta", "0", "deg", "Angle from y to axis 2"),
 ];
 
-/// How programs name, parameterize and build a [`NullGrating`].
+/// Name, parameters and constructor of a [`NullGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Null_CrossGrating",

@@ -24,7 +24,7 @@ const OWN: &[Parameter] = &[
     ),
 ];
 
-/// How programs name, parameterize and build a [`LineCrossGrating`].
+/// Name, parameters and constructor of a [`LineCrossGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "OneD_CrossGrating",

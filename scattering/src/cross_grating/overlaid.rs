@@ -20,7 +20,7 @@ const OWN: &[Parameter] = &[
     Parameter::number("separation", "0", "um", "Distance between the two"),
 ];
 
-/// How programs name, parameterize and build an [`OverlaidCrossGrating`].
+/// Name, parameters and constructor of an [`OverlaidCrossGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Overlaid_CrossGrating",

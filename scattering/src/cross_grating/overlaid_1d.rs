@@ -24,7 +24,7 @@ const OWN: &[Parameter] = &[
     Parameter::number("separation", "0", "um", "Distance between the two"),
 ];
 
-/// How programs name, parameterize and build an [`Overlaid1D`].
+/// Name, parameters and constructor of an [`Overlaid1D`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Overlaid_1D_CrossGrating",

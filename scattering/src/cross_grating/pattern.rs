@@ -70,7 +70,7 @@ struct TensorFactors {
 }
 
 impl CrossSlice {
-    /// What the slice of `depth` (in 1/k₀) does to the harmonics, axis 2 leaning by `zeta`.
+    /// Effect of the slice of `depth` (in 1/k₀) on the harmonics, axis 2 tilted by `zeta`.
     pub fn operators(&self, kept: HarmonicTruncation, zeta: f64, depth: f64) -> LayerOperators {
         let (epsilon, mu) = match &self.pattern {
             CrossPattern::Along1(pattern) => {

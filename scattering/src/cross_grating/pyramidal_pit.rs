@@ -20,7 +20,7 @@ const OWN: &[Parameter] = &[
     Parameter::integer("nlevels", "10", "Number of slices"),
 ];
 
-/// How programs name, parameterize and build a [`PyramidalPit`].
+/// Name, parameters and constructor of a [`PyramidalPit`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Pyramidal_Pit_CrossGrating",

@@ -26,7 +26,7 @@ const OWN: &[Parameter] = &[
     Parameter::index("outside", "(1.5,0)", "Index outside"),
 ];
 
-/// How programs name, parameterize and build a [`RectangleGrating`].
+/// Name, parameters and constructor of a [`RectangleGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Rectangle_CrossGrating",

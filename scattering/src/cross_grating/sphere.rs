@@ -25,7 +25,7 @@ const OWN: &[Parameter] = &[
     Parameter::index("surrounding", "(1.5,0)", "Index around them"),
 ];
 
-/// How programs name, parameterize and build a [`SphereGrating`].
+/// Name, parameters and constructor of a [`SphereGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {
     class: Class {
         name: "Sphere_CrossGrating",

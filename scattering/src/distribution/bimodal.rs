@@ -3,7 +3,7 @@
 use super::Distribution;
 use crate::spec::{Class, Family, Laws, Parameter, ParameterError, Spec};
 
-/// How programs name, parameterize and build a [`Bimodal`] distribution.
+/// Name, parameters and constructor of a [`Bimodal`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
     class: Class {
         name: "Bimodal_Distribution",

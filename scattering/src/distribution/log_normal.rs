@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use super::{Distribution, positive};
 use crate::spec::{Class, Laws, Parameter, Spec};
 
-/// How programs name, parameterize and build a [`LogNormal`] distribution.
+/// Name, parameters and constructor of a [`LogNormal`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
     class: Class {
         name: "Log_Normal_Distribution",

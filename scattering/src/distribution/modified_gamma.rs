@@ -13,7 +13,7 @@ use crate::{
     spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a [`ModifiedGamma`] distribution.
+/// Name, parameters and constructor of a [`ModifiedGamma`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
     class: Class {
         name: "Modified_Gamma_Distribution",

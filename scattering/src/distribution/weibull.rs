@@ -9,7 +9,7 @@
 use super::{Distribution, positive};
 use crate::spec::{Class, Laws, Parameter, Spec};
 
-/// How programs name, parameterize and build a [`Weibull`] distribution.
+/// Name, parameters and constructor of a [`Weibull`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
     class: Class {
         name: "Weibull_Distribution",

@@ -33,7 +33,7 @@ const OWN: &[Parameter] = &[
     Parameter::integer("nlevels", "10", "Number of slices"),
 ];
 
-/// How programs name, parameterize and build a [`CornerRounded`].
+/// Name, parameters and constructor of a [`CornerRounded`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Corner_Rounded_Grating",

@@ -29,7 +29,7 @@ const OWN: &[Parameter] = &[
     stack("stackmuz", "The same along z; empty: as along x"),
 ];
 
-/// How programs name, parameterize and build a [`DielectricStack`].
+/// Name, parameters and constructor of a [`DielectricStack`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Dielectric_Stack_Grating",

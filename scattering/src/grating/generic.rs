@@ -40,7 +40,7 @@ pub(crate) const FILE: &[Parameter] = &[
 
 const OWN: &[Parameter] = &[Parameter::integer("nlayers", "20", "Number of slices, about")];
 
-/// How programs name, parameterize and build a [`GenericGrating`].
+/// Name, parameters and constructor of a [`GenericGrating`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Generic_Grating",

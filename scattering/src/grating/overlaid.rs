@@ -22,7 +22,7 @@ const OWN: &[Parameter] = &[
     Parameter::number("separation", "0", "um", "Distance between the two"),
 ];
 
-/// How programs name, parameterize and build an [`OverlaidGrating`].
+/// Name, parameters and constructor of an [`OverlaidGrating`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Overlaid_Grating",

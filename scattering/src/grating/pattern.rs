@@ -93,7 +93,7 @@ impl LinePattern {
         }
     }
 
-    /// What it does to fields of the harmonics −`order`…`order`, in a slice of `depth` (in 1/k₀).
+    /// Effect on fields of the harmonics −`order`…`order`, in a slice of `depth` (in 1/k₀).
     pub fn operators(&self, order: usize, depth: f64) -> LayerOperators {
         LayerOperators {
             depth,

@@ -26,7 +26,7 @@ const OWN: &[Parameter] = &[
     Parameter::integer("nlevels", "10", "Number of slices"),
 ];
 
-/// How programs name, parameterize and build a [`SingleLine`].
+/// Name, parameters and constructor of a [`SingleLine`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Single_Line_Grating",

@@ -27,7 +27,7 @@ const OWN: &[Parameter] = &[
     Parameter::integer("nlevels", "20", "Number of slices, the base among them"),
 ];
 
-/// How programs name, parameterize and build a [`SinusoidalRelief`].
+/// Name, parameters and constructor of a [`SinusoidalRelief`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Sinusoidal_Relief_Grating",

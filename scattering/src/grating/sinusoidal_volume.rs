@@ -25,7 +25,7 @@ const OWN: &[Parameter] = &[
     Parameter::integer("nlevels", "1", "Number of slices"),
 ];
 
-/// How programs name, parameterize and build a [`SinusoidalVolume`].
+/// Name, parameters and constructor of a [`SinusoidalVolume`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Sinusoidal_Volume_Grating",

@@ -22,7 +22,7 @@ const OWN: &[Parameter] = &[
     Parameter::integer("nlevels", "20", "Number of slices"),
 ];
 
-/// How programs name, parameterize and build a [`TriangularGrating`].
+/// Name, parameters and constructor of a [`TriangularGrating`].
 pub const SPEC: Spec<dyn Grating> = Spec {
     class: Class {
         name: "Triangular_Grating",

@@ -51,7 +51,7 @@ pub const ROUGHNESS: &[Parameter] = &[Parameter::member(
 const STACK: &[Parameter] =
     &[Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films")];
 
-/// What every roughness model has: the common part, the spectrum, the frequencies.
+/// Data of every roughness model: the common part, the spectrum, the frequencies.
 struct RoughSurface {
     common: CommonParameters,
     psd: Box<dyn Psd>,

@@ -120,7 +120,7 @@ struct FieldVectors {
     p: [Complex64; 2],
 }
 
-/// What a wave at a face of the stack meets: X ± Z of both polarizations.
+/// Boundary values of a wave at a face of the stack: X ± Z of both polarizations.
 struct EntranceFields {
     y0: SpAmplitudes,
     x: SpAmplitudes,
@@ -204,7 +204,7 @@ impl Films {
         self.layers.len()
     }
 
-    /// Whether the interface is bare.
+    /// True if the interface is bare.
     pub fn is_empty(&self) -> bool {
         self.layers.is_empty()
     }
@@ -250,7 +250,7 @@ impl Films {
         SpAmplitudes { s: s.into(), p: p.into() }
     }
 
-    /// Whether [`Films::bare`] says what this interface reflects of light from outside.
+    /// True if [`Films::bare`] says what this interface reflects of light from outside.
     pub(crate) fn is_bare(&self) -> bool {
         self.layers.is_empty()
     }
@@ -461,12 +461,12 @@ impl EntranceFields {
 }
 
 impl FilmLayer {
-    /// Whether a wave with this q travels in it without loss.
+    /// True if a wave with this q travels in it without loss.
     fn is_clear(&self, q: Complex64) -> bool {
         q.im == 0.0 && self.medium.epsilon.im == 0.0
     }
 
-    /// What [`FieldVectors::pass`] multiplies by: e^{iδ} where the wave fades.
+    /// Factor of [`FieldVectors::pass`]: e^{iδ} where the wave decays.
     fn factor(&self, q: Complex64) -> Complex64 {
         if self.is_clear(q) { ONE } else { phase_factor(q, self.phase) }
     }

@@ -32,9 +32,9 @@ use crate::{
 pub struct FirstOrder {
     films: Films,
     lambda: f64,
-    /// What the indices were divided by.
+    /// Divisor of the indices.
     unit: f64,
-    /// Where the detector is.
+    /// Position of the detector.
     from: IncidentSide,
     /// n_d.
     index: f64,
@@ -84,12 +84,12 @@ impl FirstOrder {
         self.lambda
     }
 
-    /// What every index is divided by: the index of the medium the light comes from.
+    /// Divisor of every index: the index of the medium of the incident light.
     pub fn unit(&self) -> f64 {
         self.unit
     }
 
-    /// Whether the films stand in reverse order.
+    /// True if the films stand in reverse order.
     pub fn is_turned_over(&self) -> bool {
         self.turned_over
     }
@@ -109,7 +109,7 @@ impl FirstOrder {
         (self.from, (self.index * direction.sin).into())
     }
 
-    /// What a source with these fields at the perturbation drives; `coupling` is C and
+    /// Response to a source with these fields at the perturbation; `coupling` is C and
     /// `inverse_product` 1/ε².
     pub fn drive(
         &self,

@@ -14,7 +14,7 @@ pub enum AbscissaScale {
     Log,
 }
 
-/// How the ordinate goes from one point to the next.
+/// Interpolation of the ordinate between two points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TableInterpolation {
     /// Straight line.
@@ -116,7 +116,7 @@ impl RealFunction {
         constant.into_iter().chain(points.iter().map(|point| point.1))
     }
 
-    /// Whether there is a number between any two points.
+    /// True if there is a number between any two points.
     pub(crate) fn can_interpolate(&self) -> bool {
         let Self::Points(p) = self else { return true };
         let scaled = p.scaled.iter().flat_map(|point| [point.0, point.1]);

@@ -14,7 +14,7 @@ use crate::{
     special::gauss,
 };
 
-/// How programs name, parameterize and build a [`GaussianPhase`] phase function.
+/// Name, parameters and constructor of a [`GaussianPhase`] phase function.
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Gaussian_Phase_Function",

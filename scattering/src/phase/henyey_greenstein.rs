@@ -16,7 +16,7 @@ use crate::{
     spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a phase function of one [`HenyeyGreenstein`].
+/// Name, parameters and constructor of a phase function of one [`HenyeyGreenstein`].
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Henyey_Greenstein_Phase_Function",
@@ -30,7 +30,7 @@ pub const SPEC: Spec<dyn Phase> = Spec {
     build: |node| Ok(Box::new(HenyeyGreenstein::new(asymmetry(node, "g")?))),
 };
 
-/// How programs name, parameterize and build a [`DoubleHenyeyGreenstein`] phase function.
+/// Name, parameters and constructor of a [`DoubleHenyeyGreenstein`] phase function.
 pub const DOUBLE: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Double_Henyey_Greenstein_Phase_Function",

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_1_PI;
 use super::Phase;
 use crate::spec::{Class, Laws, Spec};
 
-/// How programs name and build an [`IsotropicPhase`] phase function.
+/// Name and constructor of an [`IsotropicPhase`] phase function.
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Isotropic_Phase_Function",

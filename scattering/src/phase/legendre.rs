@@ -14,7 +14,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`LegendrePhase`] phase function.
+/// Name, parameters and constructor of a [`LegendrePhase`] phase function.
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Legendre_Phase_Function",

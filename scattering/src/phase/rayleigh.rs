@@ -10,7 +10,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name and build a [`RayleighPhase`] phase function.
+/// Name and constructor of a [`RayleighPhase`] phase function.
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Rayleigh_Phase_Function",

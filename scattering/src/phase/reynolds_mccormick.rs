@@ -17,7 +17,7 @@ use crate::{
     spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a phase function of one [`ReynoldsMcCormick`].
+/// Name, parameters and constructor of a phase function of one [`ReynoldsMcCormick`].
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Reynolds_McCormick_Phase_Function",
@@ -31,7 +31,7 @@ pub const SPEC: Spec<dyn Phase> = Spec {
     build: |node| Ok(Box::new(ReynoldsMcCormick::read(node)?)),
 };
 
-/// How programs name, parameterize and build a [`DoubleReynoldsMcCormick`] phase function.
+/// Name, parameters and constructor of a [`DoubleReynoldsMcCormick`] phase function.
 pub const DOUBLE: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Double_Reynolds_McCormick_Phase_Function",

@@ -6,7 +6,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`TablePhase`].
+/// Name, parameters and constructor of a [`TablePhase`].
 pub const SPEC: Spec<dyn Phase> = Spec {
     class: Class {
         name: "Table_Phase_Function",

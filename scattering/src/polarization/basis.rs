@@ -27,7 +27,7 @@ impl Basis {
         }
     }
 
-    /// What programs call it.
+    /// Name in programs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Psps => "psps",
@@ -63,7 +63,7 @@ pub fn perp(a: DVec3, b: DVec3) -> DVec3 {
     a.cross(DVec3::Y).normalize()
 }
 
-/// Whether a beam counts as one along the normal.
+/// True if a beam counts as one along the normal.
 pub(crate) fn is_normal(k: DVec3) -> bool {
     k.x.abs() <= PARALLEL && k.y.abs() <= PARALLEL
 }

@@ -21,7 +21,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`CodeWhitney`] phase matrix.
+/// Name, parameters and constructor of a [`CodeWhitney`] phase matrix.
 pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
     class: Class {
         name: "CodeWhitney_Phase_Function",
@@ -80,7 +80,7 @@ impl PolarizedPhase for CodeWhitney {
 }
 
 impl CodeWhitney {
-    /// Whether no light gets more polarization than intensity, looked at every degree.
+    /// True if no light gets more polarization than intensity, looked at every degree.
     fn is_realizable(&self) -> bool {
         (0..=180).all(|degree| {
             let cos = f64::from(degree).to_radians().cos();

@@ -14,7 +14,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`Constrained`] phase matrix.
+/// Name, parameters and constructor of a [`Constrained`] phase matrix.
 pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
     class: Class {
         name: "Constrained_Phase_Function",

@@ -22,7 +22,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a [`DistributedMie`] phase matrix.
+/// Name, parameters and constructor of a [`DistributedMie`] phase matrix.
 pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
     class: Class {
         name: "Distributed_Mie_Phase_Function",

@@ -18,7 +18,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a suspension of equal [`Spheres`].
+/// Name, parameters and constructor of a suspension of equal [`Spheres`].
 pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
     class: Class {
         name: "SphericalScatterer_Phase_Function",

@@ -6,7 +6,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name, parameterize and build an [`Unpolarized`] phase matrix.
+/// Name, parameters and constructor of an [`Unpolarized`] phase matrix.
 pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
     class: Class {
         name: "Unpolarized_Phase_Function",

@@ -13,7 +13,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build an [`Abc`].
+/// Name, parameters and constructor of an [`Abc`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "ABC_PSD_Function",

@@ -9,7 +9,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`DoublePsd`].
+/// Name, parameters and constructor of a [`DoublePsd`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Double_PSD_Function",

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::spec::{Class, Laws, Spec};
 
-/// How programs name, parameterize and build elliptic plateaus.
+/// Name, parameters and constructor of elliptic plateaus.
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Elliptical_Mesa_PSD_Function",

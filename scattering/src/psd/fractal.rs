@@ -13,7 +13,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`Fractal`].
+/// Name, parameters and constructor of a [`Fractal`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Fractal_PSD_Function",

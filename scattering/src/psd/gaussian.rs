@@ -14,7 +14,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`GaussianPsd`].
+/// Name, parameters and constructor of a [`GaussianPsd`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Gaussian_PSD_Function",

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::spec::{Class, Laws, Spec};
 
-/// How programs name, parameterize and build parabolic dimples.
+/// Name, parameters and constructor of parabolic dimples.
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Parabolic_Dimple_PSD_Function",

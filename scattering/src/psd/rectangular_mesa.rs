@@ -14,7 +14,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`RectangularMesa`].
+/// Name, parameters and constructor of a [`RectangularMesa`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Rectangular_Mesa_PSD_Function",

@@ -15,7 +15,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`RectangularPyramid`].
+/// Name, parameters and constructor of a [`RectangularPyramid`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Rectangular_Pyramid_PSD_Function",

@@ -12,7 +12,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`Tabulated`].
+/// Name, parameters and constructor of a [`Tabulated`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Table_PSD_Function",

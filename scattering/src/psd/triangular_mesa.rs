@@ -18,7 +18,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`TriangularMesa`].
+/// Name, parameters and constructor of a [`TriangularMesa`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Triangular_Mesa_PSD_Function",

@@ -20,7 +20,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`TriangularPyramid`].
+/// Name, parameters and constructor of a [`TriangularPyramid`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Triangular_Pyramid_PSD_Function",
@@ -54,7 +54,7 @@ pub struct TriangularPyramid {
     dark_lines: bool,
 }
 
-/// Where NIST's library leaves its closed form: distance from a singular line, scaled.
+/// Scaled distance from a singular line within which NIST's library does not use its closed form.
 const NEAR_LINE: f64 = 1e-6;
 
 impl Psd for TriangularPyramid {

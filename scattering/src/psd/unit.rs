@@ -11,7 +11,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name, parameterize and build a [`UnitPsd`].
+/// Name, parameters and constructor of a [`UnitPsd`].
 pub const SPEC: Spec<dyn Psd> = Spec {
     class: Class {
         name: "Unit_PSD_Function",

@@ -54,7 +54,7 @@ pub struct CoupledOperators {
 }
 
 impl LayerOperators {
-    /// Whether x and y do not mix.
+    /// True if x and y do not mix.
     pub fn is_diagonal(&self) -> bool {
         self.epsilon.xy.is_none() && self.mu.xy.is_none()
     }

@@ -3,7 +3,7 @@
 use super::Reflectance;
 use crate::spec::{Class, FormulaFn, Laws, Parameter, ParameterKind, Spec};
 
-/// How programs name, parameterize and build an [`EquationReflectance`].
+/// Name, parameters and constructor of an [`EquationReflectance`].
 pub const SPEC: Spec<dyn Reflectance> = Spec {
     class: Class {
         name: "Equation_Reflectance",

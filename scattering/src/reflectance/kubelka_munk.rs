@@ -18,7 +18,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a [`KubelkaMunk`] layer.
+/// Name, parameters and constructor of a [`KubelkaMunk`] layer.
 pub const SPEC: Spec<dyn Reflectance> = Spec {
     class: Class {
         name: "Kubelka_Munk_Reflectance",
@@ -89,7 +89,7 @@ impl Reflectance for KubelkaMunk {
 }
 
 impl KubelkaMunk {
-    /// Whether e^{2βt} of the textbook form leaves the range of numbers.
+    /// True if e^{2βt} of the textbook form leaves the range of numbers.
     fn overflows(&self, k: f64, s: f64) -> bool {
         k != 0.0 && s != 0.0 && 2.0 * beta(k, s) * self.thickness > f64::MAX.ln()
     }

@@ -6,7 +6,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`TableReflectance`].
+/// Name, parameters and constructor of a [`TableReflectance`].
 pub const SPEC: Spec<dyn Reflectance> = Spec {
     class: Class {
         name: "Table_Reflectance",

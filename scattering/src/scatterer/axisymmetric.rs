@@ -27,7 +27,7 @@ use crate::{
     },
 };
 
-/// How programs name, parameterize and build a body of revolution.
+/// Name, parameters and constructor of a body of revolution.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "TMatrix_Axisymmetric_Scatterer",

@@ -11,7 +11,7 @@ use crate::{
     spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a coated sphere.
+/// Name, parameters and constructor of a coated sphere.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "CoatedMieScatterer",

@@ -20,7 +20,7 @@ use crate::{
     special::riccati,
 };
 
-/// How programs name, parameterize and build a homogeneous sphere.
+/// Name, parameters and constructor of a homogeneous sphere.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "MieScatterer",

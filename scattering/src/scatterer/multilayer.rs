@@ -11,7 +11,7 @@ use crate::{
     stack::Stack,
 };
 
-/// How programs name, parameterize and build a sphere with coats.
+/// Name, parameters and constructor of a sphere with coats.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "MultilayerCoatedMieScatterer",

@@ -25,7 +25,7 @@ use crate::{
     special::riccati,
 };
 
-/// How programs name, parameterize and build an [`OpticallyActive`] sphere.
+/// Name, parameters and constructor of an [`OpticallyActive`] sphere.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "Optically_Active_Sphere_Scatterer",

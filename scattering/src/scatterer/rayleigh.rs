@@ -22,7 +22,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name, parameterize and build a [`RayleighSphere`] sphere.
+/// Name, parameters and constructor of a [`RayleighSphere`] sphere.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "RayleighScatterer",

@@ -24,7 +24,7 @@ use crate::{
     special::gauss,
 };
 
-/// How programs name, parameterize and build a [`RayleighGansSphere`] sphere.
+/// Name, parameters and constructor of a [`RayleighGansSphere`] sphere.
 pub const SPEC: Spec<dyn Scatterer> = Spec {
     class: Class {
         name: "RayleighGansSphereScatterer",

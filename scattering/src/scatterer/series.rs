@@ -45,7 +45,7 @@ impl MieSeries {
         self.terms.len()
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.terms.is_empty()
     }

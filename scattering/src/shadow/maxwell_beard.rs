@@ -13,7 +13,7 @@ use crate::{
     spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Shadow> = Spec {
     class: Class {
         name: "Maxwell_Beard_Shadow_Function",

@@ -30,7 +30,7 @@ use crate::{
     special::erf::{ROOT_PI, falling_and_scaled},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Shadow> = Spec {
     class: Class {
         name: "Sancer_Shadow_Function",
@@ -64,7 +64,7 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
     },
 };
 
-/// What happens where both rays have the same azimuth.
+/// Behaviour if both rays have the same azimuth.
 #[derive(Clone, Copy)]
 enum Azimuths {
     Jump,

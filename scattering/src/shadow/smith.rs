@@ -24,7 +24,7 @@ use crate::{
     special::erf::{ROOT_PI, falling_and_scaled},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Shadow> = Spec {
     class: Class {
         name: "Smith_Shadow_Function",

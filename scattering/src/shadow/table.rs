@@ -11,7 +11,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Shadow> = Spec {
     class: Class {
         name: "Table_Shadow_Function",

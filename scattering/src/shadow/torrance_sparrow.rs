@@ -15,7 +15,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name and build it.
+/// Name and constructor of the class.
 pub const SPEC: Spec<dyn Shadow> = Spec {
     class: Class {
         name: "Torrance_Sparrow_Shadow_Function",

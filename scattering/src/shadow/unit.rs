@@ -6,7 +6,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name and build it.
+/// Name and constructor of the class.
 pub const SPEC: Spec<dyn Shadow> = Spec {
     class: Class {
         name: "Unit_Shadow_Function",

@@ -15,7 +15,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a Chebyshev particle.
+/// Name, parameters and constructor of a Chebyshev particle.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Chebyshev_Axisymmetric_Shape",

@@ -13,7 +13,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a cone.
+/// Name, parameters and constructor of a cone.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Conical_Axisymmetric_Shape",

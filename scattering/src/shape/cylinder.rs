@@ -10,7 +10,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a cylinder.
+/// Name, parameters and constructor of a cylinder.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Cylinder_Axisymmetric_Shape",

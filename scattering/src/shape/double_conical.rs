@@ -10,7 +10,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a double cone.
+/// Name, parameters and constructor of a double cone.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Double_Conical_Axisymmetric_Shape",

@@ -12,7 +12,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build an ellipsoid.
+/// Name, parameters and constructor of an ellipsoid.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Ellipsoid_Axisymmetric_Shape",

@@ -14,7 +14,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build an ellipsoid with a dent.
+/// Name, parameters and constructor of an ellipsoid with a dent.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Indented_Ellipsoid_Axisymmetric_Shape",

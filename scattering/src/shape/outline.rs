@@ -90,10 +90,10 @@ fn angle(place: DVec2) -> f64 {
 /// A corner with its circle.
 struct RoundedCorner {
     centre: DVec2,
-    /// Where the circle begins and ends.
+    /// Ends of the circle.
     enter: DVec2,
     exit: DVec2,
-    /// How far from the corner that is.
+    /// Distance from the corner.
     leave: f64,
     length_after: f64,
 }

@@ -12,7 +12,7 @@ use crate::{
 
 const STEP: f64 = 1e-6;
 
-/// How programs name, parameterize and build a body from a table.
+/// Name, parameters and constructor of a body from a table.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Table_Axisymmetric_Shape",

@@ -23,7 +23,7 @@ const STANDARD_SLOPE: f64 = 0.926;
 /// 0.1 m² in µm².
 const AREA: f64 = 1e11;
 
-/// How programs name, parameterize and build a [`Cleanliness`] distribution.
+/// Name, parameters and constructor of a [`Cleanliness`] distribution.
 pub const SPEC: Spec<dyn SurfaceSize> = Spec {
     class: Class {
         name: "CC1246E_SurfaceParticleSizeDistribution",

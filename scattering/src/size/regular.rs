@@ -7,7 +7,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build a [`Regular`] distribution over a volume.
+/// Name, parameters and constructor of a [`Regular`] distribution over a volume.
 pub const VOLUME: Spec<dyn VolumeSize> = Spec {
     class: Class {
         name: "Regular_VolumeParticleSizeDistribution",
@@ -24,7 +24,7 @@ pub const VOLUME: Spec<dyn VolumeSize> = Spec {
     build: |node| Ok(Box::new(Regular::read(node)?)),
 };
 
-/// How programs name, parameterize and build a [`Regular`] distribution over an area.
+/// Name, parameters and constructor of a [`Regular`] distribution over an area.
 pub const SURFACE: Spec<dyn SurfaceSize> = Spec {
     class: Class {
         name: "Regular_SurfaceParticleSizeDistribution",

@@ -21,7 +21,7 @@ use crate::{
     spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Anisotropic_Gaussian_Slope_Distribution_Function",

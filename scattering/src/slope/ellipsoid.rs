@@ -7,7 +7,7 @@
 use super::{SlopeDistribution, width};
 use crate::spec::{Class, Laws, Parameter, ParameterError, Spec};
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Ellipsoid_Slope_Distribution_Function",

@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use super::{ExponentialConstants, SlopeDistribution, width};
 use crate::spec::{Class, Laws, Parameter, Spec};
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Exponential_Slope_Distribution_Function",

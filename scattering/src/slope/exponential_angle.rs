@@ -11,7 +11,7 @@
 use super::{ExponentialConstants, SlopeDistribution, by_angle, width};
 use crate::spec::{Class, Laws, Parameter, Spec};
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Exponential_Angle_Distribution_Function",

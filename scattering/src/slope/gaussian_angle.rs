@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use super::{SlopeDistribution, by_angle, width};
 use crate::spec::{Class, Laws, Parameter, Spec};
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Gaussian_Angle_Distribution_Function",

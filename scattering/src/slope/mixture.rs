@@ -15,7 +15,7 @@ const fn part(name: &'static str, doc: &'static str) -> Parameter {
     )
 }
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Two_Slope_Distribution_Function",

@@ -10,7 +10,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Table_Slope_Distribution_Function",

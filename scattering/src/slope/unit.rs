@@ -3,7 +3,7 @@
 use super::SlopeDistribution;
 use crate::spec::{Class, Laws, Spec};
 
-/// How programs name and build it.
+/// Name and constructor of the class.
 pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Unit_Slope_Distribution_Function",

@@ -16,7 +16,7 @@ use crate::lanes::{Real, polynomial};
 /// √π.
 pub(crate) const ROOT_PI: f64 = 2.0 / FRAC_2_SQRT_PI;
 
-/// Where t = 0.
+/// Position of t = 0.
 const MIDDLE: f64 = 3.75;
 
 /// Of t²⁴, t²³, …, 1.

@@ -24,7 +24,7 @@ use crate::{
     spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<Stack> = Spec {
     class: Class {
         name: "GradedFilm_StackModel",

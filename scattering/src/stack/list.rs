@@ -3,7 +3,7 @@
 use super::{Stack, check_thickness};
 use crate::spec::{Class, Laws, Parameter, ParameterKind, Spec};
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<Stack> = Spec {
     class: Class {
         name: "Stack_StackModel",

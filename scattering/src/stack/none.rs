@@ -3,7 +3,7 @@
 use super::Stack;
 use crate::spec::{Class, Laws, Spec};
 
-/// How programs name and build it.
+/// Name and constructor of the class.
 pub const SPEC: Spec<Stack> = Spec {
     class: Class {
         name: "No_StackModel",

@@ -3,7 +3,7 @@
 use super::{Film, Stack, check_thickness};
 use crate::spec::{Class, Laws, Parameter, Spec};
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<Stack> = Spec {
     class: Class {
         name: "SingleFilm_StackModel",

@@ -13,7 +13,7 @@ use super::{build, hemisphere, most, pigmented};
 /// Surfaces, and coatings.
 const SETS: usize = 1000;
 
-/// What may come back of one.
+/// Largest allowed reflectance.
 const ALL: f64 = 1.0 + 1e-6;
 
 /// Numbers from 0 to 1, always the same (a linear congruential generator of Knuth's).
@@ -26,7 +26,7 @@ impl RandomDirections {
     }
 }
 
-/// What comes back of the polarization of which most does.
+/// Reflectance for the polarization with the largest reflectance.
 fn returned(model: &Model, theta: f64, rotation: f64) -> f64 {
     let coarse = most(&hemisphere(model, theta, rotation, 40));
     if coarse < 0.99 { coarse } else { most(&hemisphere(model, theta, rotation, 100)) }

@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use glam::DVec3;
 use num_complex::Complex64;
 
-/// What the coating is made of. Gaps and flakes are columns that light does not leave.
+/// Components of the coating. Gaps and flakes are columns that light does not leave.
 #[derive(Clone, Debug)]
 pub(super) struct WalkCoat {
     /// Index of the binder.
@@ -80,7 +80,7 @@ fn mixed(mut z: u64) -> u64 {
 /// Light of unit intensity.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WalkRay {
-    /// Where it goes, in the frame of the sample.
+    /// Direction of propagation in the frame of the sample.
     pub(super) k: DVec3,
     /// First axis of its Stokes vector; the second is k × e.
     e: DVec3,
@@ -259,7 +259,7 @@ fn diffuse(random: &mut WalkRandom) -> WalkRay {
 }
 
 impl WalkBody {
-    /// What comes up of light that came down.
+    /// Light that is returned upwards.
     fn returns(&self, down: &WalkRay, random: &mut WalkRandom) -> Option<WalkRay> {
         let (mut z, mut k) = (0.0, down.k);
         loop {
@@ -330,7 +330,7 @@ impl WalkCoat {
         }
     }
 
-    /// What goes up again at a flake of light that comes down to it.
+    /// Light that a flake reflects upwards.
     fn below(
         &self,
         mut ray: WalkRay,

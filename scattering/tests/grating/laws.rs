@@ -1,4 +1,4 @@
-//! What holds for every grating, whatever the number of harmonics.
+//! Laws of every grating, for any number of harmonics.
 
 use std::f64::consts::PI;
 

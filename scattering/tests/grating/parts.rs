@@ -1,4 +1,4 @@
-//! How the tests write down a class and ask a model.
+//! Notation of classes and evaluation of models in the tests.
 
 use std::sync::Arc;
 

@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use super::expression::{Constants, evaluate, tuple};
 use crate::{grating::GratingMaterial, spec::ParameterError};
 
-/// What a description may refer to without defining it.
+/// Names that a description may use without defining them.
 pub(crate) struct DescriptionContext {
     /// Period, µm.
     pub(crate) period: f64,

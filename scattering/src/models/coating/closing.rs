@@ -26,7 +26,7 @@ const NODES: usize = 96;
 /// Azimuths of the same: more than the tables have orders.
 const AZIMUTHS: usize = 24;
 
-/// What of the light of each rough interface gets out.
+/// Fraction of the light of each rough interface that leaves the layers.
 pub(super) struct EnergyCompensation {
     /// x_j for the interfaces below others.
     seen: Vec<Option<DirectionalAlbedo>>,
@@ -95,7 +95,7 @@ impl EnergyCompensation {
     }
 }
 
-/// What of the light of the rough interface of `coat` gets out through the layers `above` it.
+/// Fraction of the light of the rough interface of `coat` that leaves through the layers `above`.
 fn seen(above: &[CoatLayer], coat: &CoatLayer) -> Option<DirectionalAlbedo> {
     let (facets, slopes) = (coat.interface.facets()?, coat.interface.slopes()?);
     let n = above.last()?.n;

@@ -25,7 +25,7 @@ const THIN: f64 = 1e-2;
 /// Optical depth that nothing passes whatever the albedo.
 const OPAQUE: f64 = 1e7;
 
-/// What a body returns of diffuse light, and of beams.
+/// Reflectance of a body for diffuse light and for beams.
 #[derive(Clone, Debug)]
 pub(super) struct DiffuseSlab {
     /// Reflectance for diffuse light.

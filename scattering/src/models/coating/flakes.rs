@@ -45,15 +45,15 @@ pub(super) struct Flakes {
     tables: Option<FlakeTables>,
 }
 
-/// What flakes return of a beam.
+/// Light of a beam that flakes return.
 struct FlakeTables {
     /// All of it, less what flat ones would return.
     returned: DirectionalAlbedo,
-    /// What of it comes back to them from the surface above.
+    /// Light that returns to them from the surface above.
     caught: DirectionalAlbedo,
 }
 
-/// What goes on with diffuse light at flakes, s and p.
+/// Reflection and transmission of diffuse light at flakes, s and p.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FlakeFractions {
     /// Reflected.
@@ -121,7 +121,7 @@ impl Flakes {
         Ok(())
     }
 
-    /// Whether light passes.
+    /// True if light passes.
     pub(super) fn are_transparent(&self) -> bool {
         self.transparent
     }
@@ -165,13 +165,13 @@ impl Flakes {
         FlakeFractions { returned, caught: part(tables.caught.mean(theta)), passed }
     }
 
-    /// What flat transparent flakes absorb of s and p.
+    /// Fractions of s and p that flat transparent flakes absorb.
     pub(super) fn absorbed(&self, sin: f64) -> (f64, f64) {
         let (r, t) = (self.flat(sin), self.mean(|films| films.t12(sin.into())));
         ((1.0 - r.s - t.s).max(0.0), (1.0 - r.p - t.p).max(0.0))
     }
 
-    /// What flat flakes reflect.
+    /// Reflectance of flat flakes.
     fn flat(&self, sin: f64) -> TransmissionFactors {
         self.mean(|films| films.r12(sin.into()))
     }

@@ -20,7 +20,7 @@ use crate::{
     stack::Film,
 };
 
-/// What has no meaning below a coat, and why: classes and all below them.
+/// Classes, and all below them, that are not defined below a coat, with the reason.
 const MEANINGLESS: &[(&str, &str)] = &[
     ("Instrument_BRDF_Model", "it describes an instrument in air"),
     ("ZernikeExpansion_BRDF_Model", "it is a fit to what was measured in air"),

@@ -122,12 +122,12 @@ impl Interface {
         self.optical_thickness
     }
 
-    /// Whether its films absorb.
+    /// True if its films absorb.
     pub(super) fn absorbs(&self) -> bool {
         self.absorbs
     }
 
-    /// Whether it is rough.
+    /// True if it is rough.
     pub(super) fn is_rough(&self) -> bool {
         self.rough.is_some()
     }
@@ -137,23 +137,23 @@ impl Interface {
         self.rough.as_ref().map(|rough| &*rough.slopes)
     }
 
-    /// What the facets return of a ray, all of it.
+    /// Total reflectance of the facets for a ray.
     pub(super) fn returned(&self, ray: &InterfaceRay) -> [f64; 4] {
         let [i, q, u, v] = self.crossing(ray).row;
         [1.0 - i, -q, -u, -v]
     }
 
-    /// What the facets reflect; nothing if it is smooth.
+    /// Directional albedo of the facets; `None` if it is smooth.
     pub(super) fn facets(&self) -> Option<&dyn Brdf> {
         self.rough.as_ref().map(|rough| &*rough.facets)
     }
 
-    /// What passes a smooth interface, for a ray from either side.
+    /// Transmittance of a smooth interface, for a ray from either side.
     fn smooth(&self, sin: f64, cos: f64, cos_below: f64) -> TransmissionFactors {
         TransmissionFactors::of(self.films.t12(sin.into()), self.n * cos_below / cos)
     }
 
-    /// What passes, s and p alone.
+    /// Transmittance for s and p alone.
     pub(super) fn passage(&self, ray: &InterfaceRay) -> TransmissionFactors {
         let smooth = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos);
         match &self.rough {
@@ -162,7 +162,7 @@ impl Interface {
         }
     }
 
-    /// What would pass if it were smooth.
+    /// Transmittance if it were smooth.
     pub(super) fn smooth_passage(&self, sin: f64) -> TransmissionFactors {
         let ray = InterfaceRay::mean(sin);
         self.smooth(sin, ray.cos, ray.below(self.n).cos)
@@ -177,7 +177,7 @@ impl Interface {
         }
     }
 
-    /// What passes in both ways of telling it.
+    /// Transmittance in both representations.
     pub(super) fn crossing(&self, ray: &InterfaceRay) -> InterfaceTransmission {
         let smooth = self.smooth(ray.sin, ray.cos, ray.below(self.n).cos);
         let Some(rough) = &self.rough else {
@@ -197,7 +197,7 @@ impl Interface {
         InterfaceTransmission { kept, row: realizable(row) }
     }
 
-    /// What a ray from below with this sine on top meets again below; beyond 1 it is reflected
+    /// Light of a ray from below with this sine on top that returns below; beyond 1 it is reflected
     /// totally. A rough interface sends back what it lets pass less than a smooth one.
     fn sent_back(&self, sin: f64, passes: impl Fn() -> TransmissionFactors) -> TransmissionFactors {
         let reflected = self.reflects_below(sin);
@@ -213,7 +213,7 @@ impl Interface {
         }
     }
 
-    /// What the interface sends back of a ray from below it.
+    /// Internal reflectance of the interface for a ray from below.
     pub(super) fn sends_back(&self, below: &InterfaceRay) -> TransmissionFactors {
         let sin = below.sin * self.n;
         self.sent_back(sin, || {
@@ -238,7 +238,7 @@ impl Interface {
 }
 
 impl RoughInterface {
-    /// What comes back of a ray more than from a smooth interface.
+    /// Excess of the reflectance for a ray over that of a smooth interface.
     fn at(&self, ray: &InterfaceRay) -> [f64; 4] {
         self.returned.at(ray.sin.asin(), ray.turn.0, ray.turn.1)
     }
@@ -268,7 +268,7 @@ impl RoughInterface {
     }
 }
 
-/// What passes an interface.
+/// Transmittance of an interface.
 pub(super) struct InterfaceTransmission {
     /// With its polarization: s, p and their coherence.
     pub(super) kept: TransmissionFactors,

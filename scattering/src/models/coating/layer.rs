@@ -12,7 +12,7 @@ use crate::{
     spec::{Class, Family, Laws, Member, Parameter, ParameterError, Spec},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<CoatingLayer> = Spec {
     class: Class {
         name: "Coat_Layer",

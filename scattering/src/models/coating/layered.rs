@@ -50,7 +50,7 @@ use crate::{
     stack::Stack,
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Layered_BRDF_Model",
@@ -106,13 +106,13 @@ pub(super) struct CoatLayer {
     depth: f64,
 }
 
-/// What lies below all layers.
+/// Body below all layers.
 enum LowestSurface {
     /// A diffuse body of this reflectance, for light inside the last layer.
     Diffuse {
         /// R/(π(1 − ρR)).
         strength: f64,
-        /// What reaches it by way of rough interfaces.
+        /// Light that reaches it through rough interfaces.
         closing: Option<EnergyCompensation>,
     },
     /// Any other model, immersed.
@@ -122,11 +122,11 @@ enum LowestSurface {
 /// All layers down to some depth, for one ray.
 #[derive(Clone, Copy)]
 pub(super) struct LayersAbove {
-    /// What passes.
+    /// Transmittance.
     pub(super) passes: TransmissionFactors,
-    /// What comes back of light from below, through the last layer and back.
+    /// Internal reflectance for light from below, through the last layer and back.
     returns: TransmissionFactors,
-    /// What smooth interfaces send out again.
+    /// Light that smooth interfaces reflect outwards.
     pub(super) mirrored: TransmissionFactors,
 }
 
@@ -138,7 +138,7 @@ impl LayersAbove {
     };
 }
 
-/// Whether the absorption of layers is taken or left out.
+/// True if the absorption of layers is taken or left out.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Absorption {
     Lossy,
@@ -275,7 +275,7 @@ impl CoatLayer {
         Ok(Self { interface, n, depth: 4.0 * PI * k * layer.thickness / lambda })
     }
 
-    /// What is left of light after one passage at an angle with this cosine.
+    /// Fraction of light that remains after one passage at an angle with this cosine.
     pub(super) fn left(&self, cos: f64, media: Absorption) -> f64 {
         if self.depth == 0.0 || media == Absorption::Clear {
             1.0

@@ -1,4 +1,4 @@
-//! What happens to light that crosses, or is reflected by, parallel interfaces.
+//! Transmission and reflection of light by parallel interfaces.
 //!
 //! The planes of s and p are those of every interface, so all matrices have the form
 //! M(diag(t_s, t_p)) or are sums of such: the intensities of s and p and the product

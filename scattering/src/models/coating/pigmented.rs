@@ -73,7 +73,7 @@ use crate::{
     stack::Stack,
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Pigmented_Coating_BRDF_Model",
@@ -173,19 +173,19 @@ struct PigmentedCoating {
     gaps: f64,
     /// Strengths of what goes by flakes other than by one reflection.
     through: InterreflectionMatrix,
-    /// Whether light between flakes and surface is taken in.
+    /// True if light between flakes and surface is taken in.
     exchange: bool,
     printed: PublishedForm,
 }
 
-/// What is taken as the paper prints it.
+/// Parts that are computed as the paper prints them.
 struct PublishedForm {
     body: bool,
     surface: bool,
     flakes: bool,
 }
 
-/// How flakes and binder divide the light.
+/// Division of the light between flakes and binder.
 struct FlakeCover {
     /// τ.
     depth: f64,
@@ -238,7 +238,7 @@ impl FlakeCover {
         (-self.passes * self.depth).exp()
     }
 
-    /// What the binder leaves of a ray with this cosine on the part `part` of its way.
+    /// Transmittance of the binder for a ray with this cosine on the part `part` of its way.
     fn left(&self, part: f64, cos: f64) -> f64 {
         if self.binder > 0.0 { (-self.binder * part / cos).exp() } else { 1.0 }
     }
@@ -290,7 +290,7 @@ impl PigmentedCoating {
         Ok(coating)
     }
 
-    /// What is the same for all directions.
+    /// Quantities that are the same for all directions.
     fn fill(&mut self, node: &ParameterNode) -> Result<(), ParameterError> {
         self.slab = body::read(node, self.common.lambda, self.n)?;
         let alpha = self.slab.reflectance;
@@ -367,7 +367,7 @@ impl PigmentedCoating {
         }
     }
 
-    /// What the surface sends back of an unpolarized ray inside, the mean over azimuths.
+    /// Internal reflectance of the surface for an unpolarized ray, the mean over azimuths.
     fn lid(&self, inside: &InterfaceRay) -> f64 {
         self.surface.mean_sent_back(inside.sin * self.n).row()[0]
     }
@@ -426,7 +426,7 @@ impl PigmentedCoating {
         depolarized(self.gaps, row(out), row(into))
     }
 
-    /// What of a ray reaches the body, times its share of what a beam at this angle gets back.
+    /// Fraction of a ray that reaches the body, times the fraction that returns to a beam at this angle.
     fn to_body(&self, inside: &InterfaceRay) -> f64 {
         self.cover.left(1.0, inside.cos) * self.slab.shape(inside.cos)
     }

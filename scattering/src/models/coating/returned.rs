@@ -1,4 +1,4 @@
-//! What a rough surface returns of a beam, for every direction of incidence and polarization.
+//! Directional albedo of a rough surface, for every direction of incidence and polarization.
 //!
 //! $$ \mathbf e(\theta, r) = \int \mathbf F_{0\cdot}\cos\theta_s\,d\Omega_s
 //!    = \int \mathbf F_{0\cdot}\cos\theta_s\,4 c\,n_z^3\,d^2\zeta $$
@@ -130,7 +130,7 @@ pub(super) type FacetRows<'a, const N: usize> =
 /// On which side of the truth the error of a table has to be.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ErrorSign {
-    /// What passes is the rest of it.
+    /// The remainder is transmitted.
     Large,
     /// It is added to what is there.
     Small,
@@ -205,7 +205,7 @@ impl SlopeQuadrature {
         Self { deviations, reach, radii: gauss::legendre(RADII, 0.0, 1.0), edge }
     }
 
-    /// Whether the rows do not depend on the rotation of the sample.
+    /// True if the rows do not depend on the rotation of the sample.
     fn is_isotropic<const N: usize>(&self, rows: &FacetRows<'_, N>) -> bool {
         let s = self.deviations.0.min(self.deviations.1);
         // Rows may vanish at the greater angle, where nothing gets out.

@@ -27,7 +27,7 @@ use crate::{
     special::gauss,
 };
 
-/// How programs name, parameterize and build a [`DiffuseSubsurface`] body.
+/// Name, parameters and constructor of a [`DiffuseSubsurface`] body.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Diffuse_Subsurface_BRDF_Model",
@@ -179,7 +179,7 @@ mod tests {
         DiffuseSubsurface::read(&node).unwrap()
     }
 
-    /// What a white body returns of unpolarized light at 0.6 rad, and what the interface returns.
+    /// Reflectances of a white body and of its interface for unpolarized light at 0.6 rad.
     fn returned(model: &DiffuseSubsurface) -> (f64, f64) {
         let at = Incidence::new(0.6, 0.0);
         let r = model.films.r12(at.sin.into());

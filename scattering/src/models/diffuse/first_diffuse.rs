@@ -28,7 +28,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`FirstDiffuse`] body.
+/// Name, parameters and constructor of a [`FirstDiffuse`] body.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "First_Diffuse_BRDF_Model",

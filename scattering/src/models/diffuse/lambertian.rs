@@ -26,7 +26,7 @@ pub const BODY: &[Parameter] = &[Parameter::member(
     "Reflectance of the body as a function of wavelength",
 )];
 
-/// How programs name, parameterize and build a [`Lambertian`].
+/// Name, parameters and constructor of a [`Lambertian`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Lambertian_BRDF_Model",

@@ -112,9 +112,9 @@ impl LaneKernel for SumKernel<'_> {
 struct FacetBatch<R> {
     /// |w|² J.
     jones: [Complex<R>; 4],
-    /// What M of it is to be multiplied by.
+    /// Factor of its matrix M.
     weight: R,
-    /// Whether one of them is met so close to its normal that it must be looked at alone.
+    /// True if one of them is met so close to its normal that it must be looked at alone.
     is_delicate: bool,
 }
 
@@ -218,7 +218,7 @@ impl Facet {
         FacetBatch { jones, weight, is_delicate }
     }
 
-    /// Whether directions go through [`Facet::batch`].
+    /// True if directions go through [`Facet::batch`].
     fn is_bare_from_above(&self) -> bool {
         self.common.side == Side::DownUp && self.films.is_bare()
     }

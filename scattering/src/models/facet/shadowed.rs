@@ -24,7 +24,7 @@ pub const SHADOW: &[Parameter] = &[Parameter::member(
     "Shadowing of facets by each other",
 )];
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Shadowed_Facet_BRDF_Model",

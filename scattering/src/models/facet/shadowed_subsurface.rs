@@ -18,7 +18,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Shadowed_Subsurface_Facet_BRDF_Model",

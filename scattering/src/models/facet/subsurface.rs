@@ -40,7 +40,7 @@ pub const OVERCOAT: &[Parameter] = &[
     ),
 ];
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Subsurface_Facet_BRDF_Model",

@@ -32,7 +32,7 @@ const OWN: &[Parameter] = &[
     ),
 ];
 
-/// How programs name, parameterize and build the model.
+/// Name, parameters and constructor of the model.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "CrossRCW_BRDF_Model",

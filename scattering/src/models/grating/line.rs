@@ -25,7 +25,7 @@ const OWN: &[Parameter] = &[
     Parameter::member("grating", Family::Grating, "Grating", "Single_Line_Grating", "The grating"),
 ];
 
-/// How programs name, parameterize and build the model.
+/// Name, parameters and constructor of the model.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "RCW_BRDF_Model",

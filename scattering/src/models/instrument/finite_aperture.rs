@@ -17,7 +17,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`FiniteAperture`].
+/// Name, parameters and constructor of a [`FiniteAperture`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Finite_Aperture_Instrument_BRDF_Model",

@@ -27,7 +27,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`FocussedBeam`].
+/// Name, parameters and constructor of a [`FocussedBeam`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Focussed_Beam_Instrument_BRDF_Model",

@@ -28,7 +28,7 @@ use crate::{
     stack::Stack,
 };
 
-/// How programs name, parameterize and build a [`RayleighAir`].
+/// Name, parameters and constructor of a [`RayleighAir`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Rayleigh_Instrument_BRDF_Model",

@@ -42,7 +42,7 @@ mod line;
 use harmonics::ZernikeFunctions;
 use line::CoefficientLine;
 
-/// How programs name, parameterize and build a [`ZernikeExpansion`].
+/// Name, parameters and constructor of a [`ZernikeExpansion`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "ZernikeExpansion_BRDF_Model",

@@ -36,7 +36,7 @@ const PARAMS: &[&[Parameter]] = &[
     &INTERACTION,
 ];
 
-/// How programs name, parameterize and build a body of revolution on a substrate.
+/// Name, parameters and constructor of a body of revolution on a substrate.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Axisymmetric_Particle_BRDF_Model",
@@ -50,7 +50,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     build: |node| Ok(Box::new(build(node, false)?)),
 };
 
-/// How programs name, parameterize and build a body of revolution in a substrate.
+/// Name, parameters and constructor of a body of revolution in a substrate.
 pub const SUBSURFACE: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Subsurface_Axisymmetric_Particle_BRDF_Model",

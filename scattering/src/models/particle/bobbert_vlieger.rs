@@ -54,7 +54,7 @@ const PARAMS: &[&[Parameter]] = &[
     &INTERACTION,
 ];
 
-/// How programs name, parameterize and build a sphere on a substrate.
+/// Name, parameters and constructor of a sphere on a substrate.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Bobbert_Vlieger_BRDF_Model",
@@ -68,7 +68,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     build: |node| Ok(Box::new(build(node, false)?)),
 };
 
-/// How programs name, parameterize and build a sphere in a substrate.
+/// Name, parameters and constructor of a sphere in a substrate.
 pub const SUBSURFACE: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Subsurface_Bobbert_Vlieger_BRDF_Model",

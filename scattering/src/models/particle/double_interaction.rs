@@ -41,7 +41,7 @@ use crate::{
     spec::{self, Class, Family, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`DoubleInteraction`].
+/// Name, parameters and constructor of a [`DoubleInteraction`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Double_Interaction_BRDF_Model",

@@ -87,7 +87,7 @@ impl InteractionPath {
     pub(super) const ALL: [Self; 4] = [Self::Straight, Self::Before, Self::After, Self::Both];
 }
 
-/// What the light meets on its paths, for one pair of directions.
+/// Interactions of the light on its paths, for one pair of directions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InteractionPaths {
     pub incoming: PolarizedBeam,
@@ -131,7 +131,7 @@ impl InteractionPaths {
         }
     }
 
-    /// Whether light goes this way.
+    /// True if light goes this way.
     pub(super) fn is_open(&self, path: InteractionPath) -> bool {
         match path {
             InteractionPath::Straight => true,
@@ -184,7 +184,7 @@ fn last(d: SpAmplitudes, j: Jones) -> Jones {
     Jones { ss: j.ss * d.s, ps: j.ps * d.s, sp: j.sp * d.p, pp: j.pp * d.p }
 }
 
-/// Whether a path has an odd number of reflections, as an index of [`InteractionPaths::cosines`].
+/// True if a path has an odd number of reflections, as an index of [`InteractionPaths::cosines`].
 pub(super) fn parity(path: InteractionPath) -> usize {
     usize::from(matches!(path, InteractionPath::Before | InteractionPath::After))
 }

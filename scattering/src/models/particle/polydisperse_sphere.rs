@@ -31,7 +31,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build [`PolydisperseSphere`]s.
+/// Name, parameters and constructor of [`PolydisperseSphere`]s.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Polydisperse_Sphere_BRDF_Model",

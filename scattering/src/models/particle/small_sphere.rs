@@ -30,7 +30,7 @@ use crate::{
     polarization::muellers,
 };
 
-/// Where a sphere is.
+/// Position of a sphere.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SpherePosition {
     /// Depth of its centre below the outer face of the films, µm.

@@ -39,7 +39,7 @@ use crate::{
     spec::{Class, Family, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a [`SubsurfaceParticle`].
+/// Name, parameters and constructor of a [`SubsurfaceParticle`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Subsurface_Particle_BRDF_Model",
@@ -156,7 +156,7 @@ impl SubsurfaceParticle {
         Some(paths)
     }
 
-    /// What leaves through the face; type 0 writes t21 by the reversed path.
+    /// Amplitudes that leave through the face; type 0 writes t21 by the reversed path.
     fn leaving(&self, side: Side, direction: &Direction) -> SpAmplitudes {
         match side {
             Side::UpUp => self.films.t21(direction.sin.into()),

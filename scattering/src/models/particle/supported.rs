@@ -37,7 +37,7 @@ use crate::{
 
 mod image;
 
-/// Whether the library moves angles this near to the normal to it.
+/// True if the library moves angles this near to the normal to it.
 const NORMAL: f64 = 1e-6;
 
 /// The parameters of how the interaction with the face is computed.
@@ -80,7 +80,7 @@ pub(super) struct SubstrateFace {
 }
 
 impl SubstrateFace {
-    /// What every model has.
+    /// Parameters of every model.
     pub(super) fn common(&self) -> &CommonParameters {
         &self.common
     }

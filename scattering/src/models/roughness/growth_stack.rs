@@ -31,7 +31,7 @@ use crate::{
     stack::Stack,
 };
 
-/// How programs name, parameterize and build a [`GrowthStack`].
+/// Name, parameters and constructor of a [`GrowthStack`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Growth_Roughness_Stack_BRDF_Model",

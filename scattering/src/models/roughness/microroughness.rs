@@ -50,7 +50,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name, parameterize and build a [`Microroughness`].
+/// Name, parameters and constructor of a [`Microroughness`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Microroughness_BRDF_Model",

@@ -16,7 +16,7 @@ use crate::{
     stack::Stack,
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Roughness_Stack_BRDF_Model",

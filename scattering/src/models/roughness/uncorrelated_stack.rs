@@ -17,7 +17,7 @@ use crate::{
     stack::Stack,
 };
 
-/// How programs name, parameterize and build an [`UncorrelatedStack`].
+/// Name, parameters and constructor of an [`UncorrelatedStack`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Uncorrelated_Roughness_Stack_BRDF_Model",

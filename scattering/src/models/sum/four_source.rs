@@ -10,7 +10,7 @@ use crate::{
     spec::{Class, Laws, Spec},
 };
 
-/// How programs name, parameterize and build it.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Four_Source_BRDF_Model",

@@ -26,7 +26,7 @@ use crate::{
     stack::Stack,
 };
 
-/// How programs name, parameterize and build a [`Transmit`].
+/// Name, parameters and constructor of a [`Transmit`].
 pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "Transmit_BRDF_Model",

@@ -1,4 +1,4 @@
-//! What the sums of two, three and four models have in common.
+//! Common part of the sums of two, three and four models.
 //!
 //! Sources do not inherit: each must have the wavelength, the type and the substrate of the sum,
 //! compared exactly. In NIST's library `Diffuse_Subsurface_BRDF_Model` sets the k of its substrate
@@ -80,7 +80,7 @@ impl WeightedSource {
         Some(self.model.jones(incidence, direction)?.scaled(self.factor.sqrt()))
     }
 
-    /// Whether [`WeightedSource::jones`] answers in the basis of the sum.
+    /// True if [`WeightedSource::jones`] answers in the basis of the sum.
     pub(super) fn is_coherent(&self) -> bool {
         self.model.is_coherent() && self.model.native_basis() == Basis::Psps
     }
@@ -125,7 +125,7 @@ impl WeightedSum {
         })
     }
 
-    /// What `source` answered, in the basis of the sum and times its factor.
+    /// Result of `source` in the basis of the sum, times its factor.
     fn weigh(
         &self,
         source: &WeightedSource,

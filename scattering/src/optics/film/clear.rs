@@ -14,7 +14,7 @@ use crate::lanes::{Complex, Real};
 type Tangential<R> = [[Complex<R>; 2]; 2];
 
 impl Films {
-    /// Whether waves of the squared tangential index `kappa_squared` pass every film without loss
+    /// True if waves of the squared tangential index `kappa_squared` pass every film without loss
     /// and the place `depth` µm below the outer face lies in a film.
     #[inline]
     pub(crate) fn is_clear_at(&self, kappa_squared: f64, depth: f64) -> bool {
@@ -77,7 +77,7 @@ fn amplitude<R: Real>(v: [Complex<R>; 2], y0: Complex<R>) -> Complex<R> {
     (y0 + y0).over(v[0] * y0 + v[1])
 }
 
-/// What the far face of a film without loss turns `v` into at its near face.
+/// The vector `v` at the far face of a film without loss, propagated to its near face.
 #[inline(always)]
 pub(super) fn passed<R: Real>(v: Tangential<R>, layer: &FilmLayer, q: R) -> Tangential<R> {
     if layer.phase == 0.0 {

@@ -20,7 +20,7 @@ struct ZernikeFunction {
 }
 
 impl ZernikeFunctions {
-    /// How many there are.
+    /// Number of terms.
     pub(super) fn len(&self) -> usize {
         self.all.len()
     }

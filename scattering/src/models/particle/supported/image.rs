@@ -1,4 +1,4 @@
-//! How a particle answers light together with its image in the face of the substrate.
+//! Response of a particle together with its image in the face of the substrate.
 //!
 //! Outgoing multipoles w come back from the face as regular ones **A** w,
 //!
@@ -40,7 +40,7 @@ struct OrderBlock {
     rows: usize,
 }
 
-/// How w follows from T and A: the parameter `order`.
+/// Computation of w from T and A: the parameter `order`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ImageMethod {
     /// Exactly.
