@@ -14,16 +14,16 @@ const PREFIX: &str = "mist_";
 /// Random bytes of a key.
 const BYTES: usize = 32;
 
-/// What a key allows.
+/// Permission of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Scope {
+pub(crate) enum KeyScope {
     /// To look at what is there.
     Read,
     /// To change and to compute.
     Run,
 }
 
-impl Scope {
+impl KeyScope {
     /// Its name.
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -37,7 +37,7 @@ impl Scope {
 #[derive(Clone, Debug)]
 struct Key {
     name: String,
-    scopes: Vec<Scope>,
+    scopes: Vec<KeyScope>,
     digest: [u8; 32],
 }
 
@@ -69,7 +69,7 @@ impl Keys {
     /// The name of the key, and whether it has the scope; none if the key is not known.
     ///
     /// All digests are compared whole: the time tells nothing about them.
-    pub(crate) fn check(&self, key: &str, scope: Scope) -> Option<(&str, bool)> {
+    pub(crate) fn check(&self, key: &str, scope: KeyScope) -> Option<(&str, bool)> {
         let digest: [u8; 32] = Sha256::digest(key).into();
         let mut found = None;
         for known in &self.0 {
@@ -86,11 +86,11 @@ fn key(line: &str) -> Result<Key, String> {
         return Err("expected NAME SCOPES DIGEST".into());
     };
     let scope = |text: &str| match text {
-        "read" => Ok(Scope::Read),
-        "run" => Ok(Scope::Run),
+        "read" => Ok(KeyScope::Read),
+        "run" => Ok(KeyScope::Run),
         _ => Err(format!("scope {text:?} is none of read and run")),
     };
-    let scopes: Result<Vec<Scope>, String> = scopes.split(',').map(scope).collect();
+    let scopes: Result<Vec<KeyScope>, String> = scopes.split(',').map(scope).collect();
     let digest = bytes(digest).ok_or("the digest is not 64 hexadecimal digits")?;
     Ok(Key { name: name.to_owned(), scopes: scopes?, digest })
 }
@@ -137,9 +137,9 @@ mod tests {
         let file = format!("# keys\n{}\n", line("farm", "read", &key));
         assert!(!file.contains(&key));
         let keys = Keys::parse(&file).unwrap();
-        assert_eq!(keys.check(&key, Scope::Read), Some(("farm", true)));
-        assert_eq!(keys.check(&key, Scope::Run), Some(("farm", false)));
-        assert_eq!(keys.check("mist_other", Scope::Read), None);
+        assert_eq!(keys.check(&key, KeyScope::Read), Some(("farm", true)));
+        assert_eq!(keys.check(&key, KeyScope::Run), Some(("farm", false)));
+        assert_eq!(keys.check("mist_other", KeyScope::Read), None);
     }
 
     #[test]

@@ -4,10 +4,16 @@
 //! it keeps outlives it in one file. It knows no arguments and no terminal.
 
 mod compute;
+mod failure;
 mod jobs;
 mod limits;
+mod materials;
 mod memory;
+mod metrics;
+mod output;
+mod program;
 mod service;
+mod single_flight;
 mod store;
 
 pub mod http;

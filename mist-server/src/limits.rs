@@ -1,8 +1,8 @@
-//! What the service allows its clients; every bound is a flag of `mist serve`.
+//! Bounds for the clients of the service; each is a flag of `mist serve`.
 
 use std::time::Duration;
 
-/// The bounds. An answer that refuses names the flag and its value.
+/// The bounds for clients. An answer that refuses names the flag and its value.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Limits")]
 pub struct ServeLimits {
@@ -79,7 +79,7 @@ pub struct ServeLimits {
 }
 
 impl Default for ServeLimits {
-    /// What `mist serve` allows without flags.
+    /// The bounds of `mist serve` without flags.
     fn default() -> Self {
         #[derive(clap::Parser)]
         struct Flags {
@@ -101,18 +101,29 @@ impl ServeLimits {
         }
     }
 
-    /// How long one answer may be computed.
+    /// Longest time for which one answer may be computed.
     pub(crate) fn time(&self) -> Duration {
         duration(self.max_time)
     }
 
-    /// How long a client may take to send a head or a body.
+    /// Longest time in which a client may send a head or a body.
     pub(crate) fn silence(&self) -> Duration {
         duration(self.max_silence)
     }
 }
 
-/// A length of time; what no clock can count is a century.
+/// A limit of the service that was reached.
+#[derive(Clone, Debug)]
+pub(crate) struct LimitReached {
+    /// The flag of `mist serve`, without dashes.
+    pub(crate) flag: &'static str,
+    /// Its value.
+    pub(crate) value: f64,
+    /// The message for people.
+    pub(crate) message: String,
+}
+
+/// A length of time; one that no clock can count is a century.
 fn duration(seconds: f64) -> Duration {
     const CENTURY: Duration = Duration::from_secs(100 * 365 * 86_400);
     Duration::try_from_secs_f64(seconds).unwrap_or(CENTURY).min(CENTURY)

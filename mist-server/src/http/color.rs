@@ -4,10 +4,10 @@ use axum::{Json, extract::State};
 use serde_json::Value;
 
 use super::{
-    App,
     error::ApiError,
-    extract::Text,
+    extract::BodyText,
     problem::{Problem, Problems},
+    state::App,
 };
 
 /// XYZ, Lab and RGB of spectra, as `mist color` gives them.
@@ -21,14 +21,14 @@ use super::{
 )]
 pub(super) async fn color(
     State(app): State<App>,
-    Text(body): Text,
+    BodyText(body): BodyText,
 ) -> Result<Json<Value>, ApiError> {
     let work = move || -> Result<Value, ApiError> {
         let request = serde_json::from_str(&body)
             .map_err(|error| ApiError::Body(format!("the body is not JSON: {error}")))?;
         let response = spectra::case::evaluate(&request).map_err(|error| {
             let status = axum::http::StatusCode::UNPROCESSABLE_ENTITY;
-            ApiError::Told(Box::new(Problem::new(status, "color", error.to_string())))
+            ApiError::Problem(Box::new(Problem::new(status, "color", error.to_string())))
         })?;
         serde_json::to_value(response).map_err(|error| ApiError::Failed(error.to_string()))
     };

@@ -1,19 +1,22 @@
-//! What a request gets instead of its answer: `application/problem+json`.
+//! Errors of requests, and their answers: `application/problem+json`.
 
 use axum::{
     Json,
     http::{HeaderValue, StatusCode, header},
     response::{IntoResponse, Response},
 };
-use mist_engine::{Failure, material::MaterialError};
+use mist_engine::material::MaterialError;
 
-use super::problem::{Problem, of_program};
-use crate::{compute::NotDone, store::StoreError};
+use super::problem::Problem;
+use crate::{
+    compute::ComputeError, failure::FailureReport, jobs::JobsError, limits::LimitReached,
+    materials::MaterialsError, memory::MemoryError, program::ProgramError, store::StoreError,
+};
 
 /// Seconds after which a client may ask again.
 const RETRY_AFTER: u32 = 2;
 
-/// Why a request was not answered.
+/// The reason why a request was not answered.
 #[derive(Clone, Debug)]
 pub(crate) enum ApiError {
     /// Nothing has this name.
@@ -31,34 +34,23 @@ pub(crate) enum ApiError {
     /// The address has no such method.
     Method,
     /// The body is of a kind that is not read here.
-    Kind(String),
+    MediaType(String),
     /// It is not in a state for that.
     Conflict(String),
     /// A limit: the flag, its value, what broke it.
-    TooLarge(Limit),
+    TooLarge(LimitReached),
     /// A limit that other values would keep.
-    Limit(Limit),
+    Limit(LimitReached),
     /// A limit of the client that time will lift.
-    TooMany(Limit),
+    TooMany(LimitReached),
     /// The service has too much to do.
-    Busy(Limit),
+    Busy(LimitReached),
     /// The service is stopping, or what it keeps cannot be written.
     Unavailable(String),
-    /// It was told before.
-    Told(Box<Problem>),
+    /// A problem that is ready to be sent.
+    Problem(Box<Problem>),
     /// The work failed.
     Failed(String),
-}
-
-/// A limit of the service that was reached.
-#[derive(Clone, Debug)]
-pub(crate) struct Limit {
-    /// The flag of `mist serve`, without dashes.
-    pub(crate) flag: &'static str,
-    /// Its value.
-    pub(crate) value: f64,
-    /// What happened.
-    pub(crate) message: String,
 }
 
 impl From<MaterialError> for ApiError {
@@ -72,7 +64,7 @@ impl From<MaterialError> for ApiError {
         let mut problem = Problem::new(status, code, error.to_string());
         problem.part = error.part().map(str::to_owned);
         problem.help = error.help().map(str::to_owned);
-        Self::Told(Box::new(problem))
+        Self::Problem(Box::new(problem))
     }
 }
 
@@ -82,11 +74,11 @@ impl From<StoreError> for ApiError {
     }
 }
 
-impl From<NotDone> for ApiError {
-    fn from(error: NotDone) -> Self {
+impl From<ComputeError> for ApiError {
+    fn from(error: ComputeError) -> Self {
         match error {
-            NotDone::Panicked => Self::Failed(error.to_string()),
-            NotDone::Busy(most) => Self::Busy(Limit {
+            ComputeError::Panicked => Self::Failed(error.to_string()),
+            ComputeError::QueueFull(most) => Self::Busy(LimitReached {
                 flag: "max-waiting",
                 value: most as f64,
                 message: "too many answers are being computed".into(),
@@ -95,37 +87,60 @@ impl From<NotDone> for ApiError {
     }
 }
 
-impl ApiError {
-    /// The failure of the program `text`.
-    pub(crate) fn of_program(text: &str, failure: Failure) -> Self {
-        let message = failure.to_string();
-        match failure {
-            Failure::Program(found) => Self::Told(Box::new(of_program(text, &found))),
-            Failure::Step { step, fault } => {
-                let note = format!("in step {}", step + 1);
-                Self::Told(Box::new(of_program(text, &[fault.note(note)])))
-            }
-            Failure::Limit(message) => {
-                let problem = Problem::new(StatusCode::UNPROCESSABLE_ENTITY, "limit", message);
-                Self::Told(Box::new(problem))
-            }
-            Failure::Cancelled => Self::Unavailable(message),
-            Failure::Write(error) => match error.downcast::<OutputLimit>() {
-                Ok(OutputLimit(limit)) => Self::Limit(limit),
-                Err(error) => Self::Unavailable(format!("the results cannot be kept: {error}")),
-            },
+impl From<MemoryError> for ApiError {
+    fn from(error: MemoryError) -> Self {
+        match error {
+            MemoryError::TooLarge(limit) => Self::Limit(limit),
+            MemoryError::Exhausted(limit) => Self::Busy(limit),
         }
     }
+}
 
-    /// What the client is told.
-    pub(crate) fn problem(self) -> Problem {
-        let limited = |status, code, limit: Limit| {
-            let help = format!("the service was started with --{} {}", limit.flag, limit.value);
-            let mut problem = Problem::new(status, code, limit.message);
-            problem.limit = Some(limit.flag.to_owned());
-            problem.help = Some(help);
-            problem
+impl From<JobsError> for ApiError {
+    fn from(error: JobsError) -> Self {
+        match error {
+            JobsError::Unknown(id) => Self::NotFound(format!("job {id:?}")),
+            JobsError::Stopping => Self::Unavailable("the service is stopping".into()),
+            JobsError::Full(limit) => Self::TooMany(limit),
+            JobsError::Store(error) => error.into(),
+            JobsError::NoRandomNumbers(message) => Self::Failed(message),
+        }
+    }
+}
+
+impl From<MaterialsError> for ApiError {
+    fn from(error: MaterialsError) -> Self {
+        match error {
+            MaterialsError::Unknown(name) => Self::NotFound(format!("material {name:?}")),
+            MaterialsError::Material(error) => error.into(),
+            MaterialsError::Program(error) => error.into(),
+        }
+    }
+}
+
+impl From<ProgramError> for ApiError {
+    fn from(error: ProgramError) -> Self {
+        let wrong = |report| {
+            let problem = Problem::of(StatusCode::UNPROCESSABLE_ENTITY, report);
+            Self::Problem(Box::new(problem))
         };
+        match error {
+            ProgramError::TooLarge(limit) => Self::TooLarge(limit),
+            ProgramError::Wrong(report) => wrong(*report),
+            ProgramError::Limit(_) => wrong(error.report()),
+            ProgramError::OutputTooLong(limit) => Self::Limit(limit),
+            ProgramError::Cancelled(message) | ProgramError::Storage(message) => {
+                Self::Unavailable(message)
+            }
+        }
+    }
+}
+
+impl ApiError {
+    /// The problem that the client gets.
+    pub(crate) fn problem(self) -> Problem {
+        let limited =
+            |status, code, limit| Problem::of(status, FailureReport::of_limit(code, limit));
         match self {
             Self::NotFound(what) => {
                 Problem::new(StatusCode::NOT_FOUND, "not-found", format!("there is no {what}"))
@@ -150,7 +165,7 @@ impl ApiError {
                 let message = "this address has no such method";
                 Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method", message)
             }
-            Self::Kind(message) => {
+            Self::MediaType(message) => {
                 Problem::new(StatusCode::UNSUPPORTED_MEDIA_TYPE, "content-type", message)
             }
             Self::Conflict(message) => Problem::new(StatusCode::CONFLICT, "state", message),
@@ -161,7 +176,7 @@ impl ApiError {
             Self::Unavailable(message) => {
                 Problem::new(StatusCode::SERVICE_UNAVAILABLE, "unavailable", message)
             }
-            Self::Told(problem) => *problem,
+            Self::Problem(problem) => *problem,
             Self::Failed(message) => {
                 Problem::new(StatusCode::INTERNAL_SERVER_ERROR, "failed", message)
             }
@@ -189,8 +204,3 @@ impl IntoResponse for ApiError {
         response
     }
 }
-
-/// The texts of a run are longer than allowed: what its sink says to the engine.
-#[derive(Clone, Debug, thiserror::Error)]
-#[error("{}", .0.message)]
-pub(crate) struct OutputLimit(pub(crate) Limit);

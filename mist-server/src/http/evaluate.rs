@@ -18,25 +18,26 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::{
-    App,
-    asked::Asked,
-    error::{ApiError, Limit},
-    extract::{Body, Path, Query, Text},
-    materials::Kept,
+    error::ApiError,
+    extract::{BodyBytes, BodyText, PathParameters, Query},
+    prepared_lobes::PreparedLobes,
     problem::Problems,
+    query::MaterialQuery,
     schema,
+    state::App,
 };
+use crate::{limits::LimitReached, materials::StoredMaterial};
 
 /// Bytes of a pair of vectors: six f32.
 const PAIR: usize = 24;
 /// Evaluations that are done at once, on the thread that answers: some hundred microseconds.
 const AT_ONCE: usize = 1024;
 
-/// How `mist eval` is asked.
+/// The options of `mist eval`.
 #[derive(Default, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
-pub(super) struct How {
+pub(super) struct EvaluationOptions {
     /// Give NIST's numbers, its defects included.
     compat: bool,
 }
@@ -46,16 +47,16 @@ pub(super) struct How {
     post,
     path = "/v1/evaluate",
     tag = "evaluate",
-    params(How),
+    params(EvaluationOptions),
     request_body = schema::EvalRequest,
     responses((status = 200, description = "One matrix per geometry, 1/sr", body = schema::EvalAnswer), Problems),
 )]
 pub(super) async fn angles(
     State(app): State<App>,
-    Query(how): Query<How>,
-    Text(body): Text,
+    Query(options): Query<EvaluationOptions>,
+    BodyText(body): BodyText,
 ) -> Result<Response, ApiError> {
-    let mode = if how.compat { Mode::Compat } else { Mode::Sound };
+    let mode = if options.compat { Mode::Compat } else { Mode::Sound };
     let work = move || eval::eval(&body, mode, None);
     let response = app.compute_in_time(work).await??;
     Ok(Json(response).into_response())
@@ -68,7 +69,7 @@ pub(super) async fn angles(
     post,
     path = "/v1/materials/{name}/evaluate",
     tag = "materials",
-    params(schema::Name, Asked),
+    params(schema::MaterialName, MaterialQuery),
     request_body(content = Vec<u8>, content_type = "application/octet-stream"),
     responses(
         (status = 200, description = "The numbers", body = Vec<u8>, content_type = "application/octet-stream"),
@@ -77,14 +78,14 @@ pub(super) async fn angles(
 )]
 pub(super) async fn vectors(
     State(app): State<App>,
-    Path(name): Path<String>,
+    PathParameters(name): PathParameters<String>,
     uri: Uri,
-    Body(body): Body,
+    BodyBytes(body): BodyBytes,
 ) -> Result<Response, ApiError> {
     let pairs = pairs(&body)?;
     let kept = app.materials.find(&name)?;
-    let ready = ready(&app, kept, &uri).await?;
-    let Ready { lobes, out } = &*ready;
+    let prepared = prepared(&app, kept, &uri).await?;
+    let PreparedLobes { lobes, out } = &*prepared;
     let out = *out;
     admit(&app, lobes, pairs.len(), out)?;
     let evaluations = pairs.len() * lobes.wavelengths();
@@ -92,7 +93,7 @@ pub(super) async fn vectors(
     let answer = if evaluations <= AT_ONCE {
         lobes.evaluate(&pairs, out)
     } else {
-        app.compute_in_time(move || in_parallel(&ready.lobes, &pairs, out)).await?
+        app.compute_in_time(move || in_parallel(&prepared.lobes, &pairs, out)).await?
     };
     let mut bytes = Vec::with_capacity(4 * answer.len());
     for x in &answer {
@@ -120,25 +121,23 @@ fn pairs(body: &[u8]) -> Result<Vec<(DVec3, DVec3)>, ApiError> {
     Ok(body.chunks_exact(PAIR).map(|pair| (vector(&pair[..12]), vector(&pair[12..]))).collect())
 }
 
-/// A material at the wavelengths of a query, and what is asked of it.
-pub(super) struct Ready {
-    lobes: Lobes,
-    out: LobeOutput,
-}
-
-/// What the query asks for, from the last asker or new.
-async fn ready(app: &App, kept: Arc<Kept>, uri: &Uri) -> Result<Arc<Ready>, ApiError> {
-    // The text of the query says all: it is read once.
+/// The lobes that the query asks for, from the cache or new.
+async fn prepared(
+    app: &App,
+    kept: Arc<StoredMaterial>,
+    uri: &Uri,
+) -> Result<Arc<PreparedLobes>, ApiError> {
+    // The text of the query has everything: it is read once.
     let key = format!("{} {}", kept.hash, uri.query().unwrap_or_default());
-    if let Some(found) = app.ready.get(&key) {
+    if let Some(found) = app.lobes.get(&key) {
         return Ok(found);
     }
-    let asked = Asked::of(uri)?;
+    let asked = MaterialQuery::of(uri)?;
     let out = LobeOutput::parse(asked.out().unwrap_or("rgb"))?;
     let view = asked.view(&app.limits)?;
     let made = app.compute_in_time(move || Lobes::new(&kept.prepared, &view)).await??;
     made.check(out)?;
-    Ok(app.ready.keep(key, Arc::new(Ready { lobes: made, out })))
+    Ok(app.lobes.insert(key, PreparedLobes { lobes: made, out }))
 }
 
 fn admit(app: &App, lobes: &Lobes, pairs: usize, out: LobeOutput) -> Result<(), ApiError> {
@@ -150,7 +149,7 @@ fn admit(app: &App, lobes: &Lobes, pairs: usize, out: LobeOutput) -> Result<(), 
     ] {
         if count as f64 > value {
             let message = format!("the answer needs {count} {what}, more than {value}");
-            return Err(ApiError::Limit(Limit { flag, value, message }));
+            return Err(ApiError::Limit(LimitReached { flag, value, message }));
         }
     }
     Ok(())

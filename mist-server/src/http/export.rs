@@ -12,7 +12,7 @@ use rise_bridge::{
 };
 use serde::Deserialize;
 
-use super::{App, error::ApiError, extract::Query, file::Asker};
+use super::{error::ApiError, extract::Query, file_response::FileRequest, state::App};
 
 /// Largest answer, bytes: it is made in memory.
 const MOST_BYTES: usize = 256 << 20;
@@ -83,8 +83,8 @@ pub(super) async fn answer(
     let wait = query.wait;
     let request = query.request(name);
     let content = (&kept.hash, format.name, &request);
-    let asker = Asker::new(&content, format.media_type, wait, (headers, uri))?;
-    if let Some(answer) = asker.known() {
+    let file = FileRequest::new(&content, format.media_type, wait, (headers, uri))?;
+    if let Some(answer) = file.not_modified() {
         return Ok(answer);
     }
     let work = move |control: &Control| {
@@ -92,7 +92,7 @@ pub(super) async fn answer(
         writer.write(&kept.prepared, &request, &mut bytes, control).map_err(refused)?;
         Ok(Bytes::from(bytes))
     };
-    asker.answer(app, MOST_BYTES as f64, work).await
+    file.answer(app, MOST_BYTES as f64, work).await
 }
 
 fn refused(error: ExportError) -> ApiError {

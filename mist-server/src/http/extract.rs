@@ -1,4 +1,4 @@
-//! What handlers take from a request; what cannot be taken is a problem like any other.
+//! Parts of requests for handlers; a part that cannot be read is a problem like any other.
 
 use axum::{
     body::Bytes,
@@ -8,15 +8,13 @@ use axum::{
 use mist_runner::files::decode;
 use serde::de::DeserializeOwned;
 
-use super::{
-    App,
-    error::{ApiError, Limit},
-};
+use super::{error::ApiError, state::App};
+use crate::limits::LimitReached;
 
 /// The named parts of the address.
-pub(super) struct Path<T>(pub(super) T);
+pub(super) struct PathParameters<T>(pub(super) T);
 
-impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for Path<T> {
+impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for PathParameters<T> {
     type Rejection = ApiError;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ApiError> {
@@ -45,9 +43,9 @@ impl<T: DeserializeOwned> Query<T> {
 }
 
 /// The bytes of the body.
-pub(super) struct Body(pub(super) Bytes);
+pub(super) struct BodyBytes(pub(super) Bytes);
 
-impl FromRequest<App> for Body {
+impl FromRequest<App> for BodyBytes {
     type Rejection = ApiError;
 
     async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
@@ -57,7 +55,7 @@ impl FromRequest<App> for Body {
         match read.map_err(|_| ApiError::Slow)? {
             Ok(bytes) => Ok(Self(bytes)),
             Err(error) if error.status() == StatusCode::PAYLOAD_TOO_LARGE => {
-                Err(ApiError::TooLarge(Limit {
+                Err(ApiError::TooLarge(LimitReached {
                     flag: "max-body",
                     value: most as f64,
                     message: format!("the body has more than {most} bytes"),
@@ -69,13 +67,13 @@ impl FromRequest<App> for Body {
 }
 
 /// The body as text: UTF-8, or else Latin-1, as data files are read.
-pub(super) struct Text(pub(super) String);
+pub(super) struct BodyText(pub(super) String);
 
-impl FromRequest<App> for Text {
+impl FromRequest<App> for BodyText {
     type Rejection = ApiError;
 
     async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
-        let Body(bytes) = Body::from_request(request, app).await?;
+        let BodyBytes(bytes) = BodyBytes::from_request(request, app).await?;
         Ok(Self(decode(bytes.into())))
     }
 }

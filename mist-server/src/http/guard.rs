@@ -1,4 +1,4 @@
-//! What every request passes on its way: its number, its key, its place in the log.
+//! The middleware of every request: its number, its key, its line in the log.
 
 use std::{
     net::IpAddr,
@@ -13,16 +13,16 @@ use axum::{
     response::{IntoResponse, Response},
 };
 
-use super::{App, error::ApiError, listen::Peer};
-use crate::keys::Scope;
-use crate::memory::Reserved;
+use super::{error::ApiError, listen::PeerAddress, state::App};
+use crate::keys::KeyScope;
+use crate::memory::Reservation;
 
 /// The header with the number of a request.
 const REQUEST_ID: &str = "x-request-id";
 /// Characters of a number that a client or a proxy gives.
 const LONGEST_ID: usize = 128;
 
-/// Who asks: the name of a key, or an address.
+/// The client: the name of a key, or an address.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Client(pub(super) String);
 
@@ -50,7 +50,8 @@ pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Ne
     let (method, uri) = (request.method().clone(), request.uri().clone());
     let route = request.extensions().get::<MatchedPath>().cloned();
     let mut client = String::new();
-    let admitted = admit(&app, &request).and_then(|client| Ok((client, hold(&app, &request)?)));
+    let admitted =
+        admit(&app, &request).and_then(|client| Ok((client, reserve_body(&app, &request)?)));
     let mut response = match admitted {
         Ok((found, _held)) => {
             client.clone_from(&found.0);
@@ -62,7 +63,7 @@ pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Ne
     let (status, seconds) = (response.status().as_u16(), begun.elapsed().as_secs_f64());
     tracing::info!(id, %method, path = uri.path(), status, seconds, client, "answered");
     let route = route.as_ref().map_or("none", MatchedPath::as_str);
-    app.metrics.count_request(&method, route, status, seconds);
+    app.metrics.count_request(method.as_str(), route, status, seconds);
     if let Ok(id) = HeaderValue::from_str(&id) {
         response.headers_mut().insert(REQUEST_ID, id);
     }
@@ -70,7 +71,7 @@ pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Ne
 }
 
 /// Memory for the body of a request, until it is answered.
-fn hold(app: &App, request: &Request) -> Result<Option<Reserved>, ApiError> {
+fn reserve_body(app: &App, request: &Request) -> Result<Option<Reservation>, ApiError> {
     let most = app.limits.max_body;
     let bytes = match request.headers().get(header::CONTENT_LENGTH) {
         Some(length) => length.to_str().ok().and_then(|length| length.parse().ok()).unwrap_or(most),
@@ -81,7 +82,7 @@ fn hold(app: &App, request: &Request) -> Result<Option<Reserved>, ApiError> {
     if bytes <= SMALL_BODY || bytes > most {
         return Ok(None);
     }
-    app.memory.reserve(bytes as f64 * PER_BYTE).map(Some)
+    Ok(Some(app.memory.reserve(bytes as f64 * PER_BYTE)?))
 }
 
 /// The number that the client or a proxy gave, or the next one.
@@ -94,9 +95,9 @@ fn request_id(request: &Request) -> String {
     }
 }
 
-/// Who asks, if they may.
+/// The client, if it may send the request.
 fn admit(app: &App, request: &Request) -> Result<Client, ApiError> {
-    let peer = request.extensions().get::<ConnectInfo<Peer>>().map(|info| info.0.0);
+    let peer = request.extensions().get::<ConnectInfo<PeerAddress>>().map(|info| info.0.0);
     let address = peer.map_or_else(|| "local".to_owned(), |ip: IpAddr| ip.to_string());
     let Some(keys) = &app.keys else { return Ok(Client(address)) };
     let path = request.uri().path();
@@ -104,8 +105,8 @@ fn admit(app: &App, request: &Request) -> Result<Client, ApiError> {
         return Ok(Client(address));
     }
     let scope = match *request.method() {
-        Method::GET | Method::HEAD => Scope::Read,
-        _ => Scope::Run,
+        Method::GET | Method::HEAD => KeyScope::Read,
+        _ => KeyScope::Run,
     };
     let given = request.headers().get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
     let key = given.and_then(|value| value.split_once(' '));

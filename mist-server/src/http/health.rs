@@ -2,7 +2,7 @@
 
 use axum::extract::State;
 
-use super::{App, error::ApiError, problem::Problems};
+use super::{error::ApiError, problem::Problems, state::App};
 
 /// Whether the process answers.
 #[utoipa::path(

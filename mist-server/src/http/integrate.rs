@@ -18,16 +18,16 @@ use serde::Deserialize;
 use utoipa::ToSchema;
 
 use super::{
-    App,
-    asked::{Asked, admit},
+    cancel::CancelOnDrop,
     error::ApiError,
-    extract::{Accept, Path, Text},
-    materials::Kept,
+    extract::{Accept, BodyText, PathParameters},
     problem::Problems,
-    run::Leash,
+    query::{MaterialQuery, admit},
     schema,
+    state::App,
     table::memory_of,
 };
+use crate::materials::StoredMaterial;
 
 /// Solid angles as JSON.
 #[derive(Deserialize, ToSchema)]
@@ -99,7 +99,7 @@ fn rows(body: String) -> Result<String, ApiError> {
     post,
     path = "/v1/materials/{name}/integrate",
     tag = "materials",
-    params(schema::Name, Asked),
+    params(schema::MaterialName, MaterialQuery),
     request_body(content((String = "text/plain"), (Patches = "application/json"))),
     responses(
         (status = 200, description = "A table of colours, spectra or Mueller matrices", content(
@@ -110,10 +110,10 @@ fn rows(body: String) -> Result<String, ApiError> {
 )]
 pub(super) async fn integrate(
     State(app): State<App>,
-    Path(name): Path<String>,
-    asked: Asked,
+    PathParameters(name): PathParameters<String>,
+    asked: MaterialQuery,
     accept: Accept,
-    Text(body): Text,
+    BodyText(body): BodyText,
 ) -> Result<Response, ApiError> {
     let out = LobeOutput::parse(asked.out().unwrap_or("rgb"))?;
     let kept = app.materials.find(&name)?;
@@ -124,8 +124,8 @@ pub(super) async fn integrate(
     let json = accept == Accept::Json;
     let values = if out == LobeOutput::Mueller { 16.0 } else { 1.0 };
     let held = app.memory.reserve(values * memory_of(&request))?;
-    let leash = Leash::default();
-    let control = Control { cancel: leash.0.clone(), progress: None };
+    let cancel = CancelOnDrop::default();
+    let control = cancel.control();
     let work = move || {
         let _held = held;
         answer(&kept, &request, &asked, &control, (out, json))
@@ -137,9 +137,9 @@ pub(super) async fn integrate(
 
 /// The text of the answer.
 fn answer(
-    kept: &Kept,
+    kept: &StoredMaterial,
     request: &TableRequest,
-    asked: &Asked,
+    asked: &MaterialQuery,
     control: &Control,
     (out, json): (LobeOutput, bool),
 ) -> Result<String, ApiError> {

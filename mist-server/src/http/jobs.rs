@@ -16,16 +16,19 @@ use rise_bridge::formats::{self, FileFormat};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
+use super::job_document::JobDocument;
 use super::{
-    App,
     error::ApiError,
-    extract::{Accept, Path, Query},
+    extract::{Accept, PathParameters, Query},
     guard::Client,
     problem::Problems,
-    program::ProgramBody,
     run::answer,
+    state::App,
 };
-use crate::jobs::{Job, State as JobState, Status};
+use crate::{
+    jobs::{Job, JobState},
+    program::{ProgramError, ProgramRequest},
+};
 
 /// An accepted job.
 #[derive(Serialize, ToSchema)]
@@ -43,20 +46,20 @@ pub(super) struct JobId {
     id: String,
 }
 
-/// How results are wanted.
+/// Options of results.
 #[derive(Default, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
-pub(super) struct HowResults {
+pub(super) struct ResultsOptions {
     /// Give the rows of a running job as far as they are.
     partial: bool,
 }
 
-/// Which form of a colour table is wanted.
+/// Options of a colour table.
 #[derive(Default, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
-pub(super) struct HowTable {
+pub(super) struct TableOptions {
     /// `mtab`, `mspd`, `json` or `svg`.
     format: Option<String>,
 }
@@ -67,7 +70,7 @@ pub(super) struct HowTable {
     path = "/v1/jobs",
     tag = "jobs",
     request_body(content(
-        (ProgramBody = "application/json"), (String = "text/plain"), (ProgramBody = "multipart/form-data"),
+        (ProgramRequest = "application/json"), (String = "text/plain"), (ProgramRequest = "multipart/form-data"),
     )),
     responses(
         (status = 202, description = "It is kept and will run", body = Accepted,
@@ -78,18 +81,18 @@ pub(super) struct HowTable {
 pub(super) async fn submit(
     State(app): State<App>,
     client: Client,
-    body: ProgramBody,
+    body: ProgramRequest,
 ) -> Result<Response, ApiError> {
     app.jobs.admit(&client.0)?;
     // What is wrong with a program is told now rather than later.
     let limits = app.limits.clone();
     let body = app
-        .compute_in_time(move || -> Result<ProgramBody, ApiError> {
-            body.check(limits.engine(limits.max_job_time))?;
+        .compute_in_time(move || -> Result<ProgramRequest, ProgramError> {
+            body.compile(limits.engine(limits.max_job_time))?;
             Ok(body)
         })
         .await??;
-    let status = app.blocking(move |app| app.jobs.submit(&body, client.0)).await?;
+    let status = app.blocking(move |app| Ok(app.jobs.submit(&body, client.0)?)).await?;
     let location = HeaderValue::from_str(&format!("/v1/jobs/{}", status.id));
     let location = location.map_err(|error| ApiError::Failed(error.to_string()))?;
     let accepted = Json(Accepted { id: status.id });
@@ -101,10 +104,10 @@ pub(super) async fn submit(
     get,
     path = "/v1/jobs",
     tag = "jobs",
-    responses((status = 200, description = "Where they stand", body = Vec<Status>), Problems),
+    responses((status = 200, description = "Where they stand", body = Vec<JobDocument>), Problems),
 )]
-pub(super) async fn list(State(app): State<App>) -> Json<Vec<Status>> {
-    Json(app.jobs.list())
+pub(super) async fn list(State(app): State<App>) -> Json<Vec<JobDocument>> {
+    Json(app.jobs.list().into_iter().map(JobDocument::from).collect())
 }
 
 /// Where a job stands.
@@ -113,13 +116,13 @@ pub(super) async fn list(State(app): State<App>) -> Json<Vec<Status>> {
     path = "/v1/jobs/{id}",
     tag = "jobs",
     params(JobId),
-    responses((status = 200, description = "Where it stands", body = Status), Problems),
+    responses((status = 200, description = "Where it stands", body = JobDocument), Problems),
 )]
 pub(super) async fn get(
     State(app): State<App>,
-    Path(id): Path<String>,
-) -> Result<Json<Status>, ApiError> {
-    Ok(Json(app.jobs.find(&id)?.status()))
+    PathParameters(id): PathParameters<String>,
+) -> Result<Json<JobDocument>, ApiError> {
+    Ok(Json(app.jobs.find(&id)?.status().into()))
 }
 
 /// Cancel a job that waits or runs; forget one that is over.
@@ -129,19 +132,19 @@ pub(super) async fn get(
     tag = "jobs",
     params(JobId),
     responses(
-        (status = 200, description = "It was over and is forgotten, or it is cancelled", body = Status),
-        (status = 202, description = "It will stop soon", body = Status),
+        (status = 200, description = "It was over and is forgotten, or it is cancelled", body = JobDocument),
+        (status = 202, description = "It will stop soon", body = JobDocument),
         Problems,
     ),
 )]
 pub(super) async fn cancel(
     State(app): State<App>,
-    Path(id): Path<String>,
-) -> Result<(StatusCode, Json<Status>), ApiError> {
+    PathParameters(id): PathParameters<String>,
+) -> Result<(StatusCode, Json<JobDocument>), ApiError> {
     let job = app.jobs.find(&id)?;
-    let status = app.blocking(move |app| app.jobs.cancel(&job)).await?;
+    let status = app.blocking(move |app| Ok(app.jobs.cancel(&job)?)).await?;
     let code = if status.state.is_over() { StatusCode::OK } else { StatusCode::ACCEPTED };
-    Ok((code, Json(status)))
+    Ok((code, Json(status.into())))
 }
 
 /// Where a job stands, and every change until it is over or the service stops, as server-sent
@@ -158,7 +161,7 @@ pub(super) async fn cancel(
 )]
 pub(super) async fn events(
     State(app): State<App>,
-    Path(id): Path<String>,
+    PathParameters(id): PathParameters<String>,
 ) -> Result<Sse<impl Stream<Item = Result<Event, Infallible>>>, ApiError> {
     let mut changes = app.jobs.find(&id)?.watch();
     // The first event tells where the job stands now.
@@ -167,8 +170,9 @@ pub(super) async fn events(
         let mut changes = changes?;
         changes.changed().await.ok()?;
         let status = changes.borrow_and_update().clone();
-        let event = Event::default().event("status").json_data(&status).unwrap_or_default();
         let rest = (!status.state.is_over()).then_some(changes);
+        let document = JobDocument::from(status);
+        let event = Event::default().event("status").json_data(&document).unwrap_or_default();
         Some((Ok(event), rest))
     });
     let stream = stream.take_until(app.jobs.left());
@@ -180,7 +184,7 @@ pub(super) async fn events(
     get,
     path = "/v1/jobs/{id}/results",
     tag = "jobs",
-    params(JobId, HowResults),
+    params(JobId, ResultsOptions),
     responses(
         (status = 200, description = "The table", content(
             (String = "text/plain"), (String = "text/csv"), (serde_json::Value = "application/json"),
@@ -190,13 +194,13 @@ pub(super) async fn events(
 )]
 pub(super) async fn results(
     State(app): State<App>,
-    Path(id): Path<String>,
-    Query(how): Query<HowResults>,
+    PathParameters(id): PathParameters<String>,
+    Query(options): Query<ResultsOptions>,
     accept: Accept,
 ) -> Result<Response, ApiError> {
     let job = app.jobs.find(&id)?;
     let status = job.status();
-    let text = if how.partial && status.state == JobState::Running {
+    let text = if options.partial && status.state == JobState::Running {
         job.results_so_far()
     } else {
         text(&app, job, "results").await?
@@ -214,7 +218,7 @@ pub(super) async fn results(
 )]
 pub(super) async fn listing(
     State(app): State<App>,
-    Path(id): Path<String>,
+    PathParameters(id): PathParameters<String>,
 ) -> Result<String, ApiError> {
     text(&app, app.jobs.find(&id)?, "listing").await
 }
@@ -229,7 +233,7 @@ pub(super) async fn listing(
 )]
 pub(super) async fn samples(
     State(app): State<App>,
-    Path(id): Path<String>,
+    PathParameters(id): PathParameters<String>,
 ) -> Result<String, ApiError> {
     text(&app, app.jobs.find(&id)?, "samples").await
 }
@@ -239,7 +243,7 @@ pub(super) async fn samples(
     get,
     path = "/v1/jobs/{id}/table",
     tag = "jobs",
-    params(JobId, HowTable),
+    params(JobId, TableOptions),
     responses(
         (status = 200, description = "The table", content(
             (String = "text/plain"), (serde_json::Value = "application/json"), (String = "image/svg+xml"),
@@ -249,10 +253,10 @@ pub(super) async fn samples(
 )]
 pub(super) async fn table(
     State(app): State<App>,
-    Path(id): Path<String>,
-    Query(how): Query<HowTable>,
+    PathParameters(id): PathParameters<String>,
+    Query(options): Query<TableOptions>,
 ) -> Result<Response, ApiError> {
-    let name = how.format.as_deref().unwrap_or(formats::MTAB.name);
+    let name = options.format.as_deref().unwrap_or(formats::MTAB.name);
     let format = FileFormat::named(name).filter(|format| format.colours().is_some());
     let format = format.ok_or_else(|| {
         let known: Vec<&str> = formats::of_colours().map(|(format, _)| format.name).collect();

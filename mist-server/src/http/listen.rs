@@ -1,4 +1,4 @@
-//! Connections: how many there are, how long they may be silent, and how they end.
+//! Connections: their number, the time for which they may be silent, and their end.
 
 use std::{future::Future, io, net::IpAddr, pin::pin, sync::Arc, time::Duration};
 
@@ -9,19 +9,19 @@ use hyper_util::{
     server::graceful::GracefulShutdown,
 };
 use tokio::{net::TcpListener, sync::Semaphore};
+use tokio_io_timeout::TimeoutStream;
 use tower::ServiceExt;
 
-use super::patient::Patient;
 use crate::limits::ServeLimits;
 
-/// How long answers that were begun may take when the service stops.
-const LAST_ANSWERS: Duration = Duration::from_secs(10);
-/// How long nobody is accepted after the system has no room for a connection.
-const NO_ROOM: Duration = Duration::from_millis(100);
+/// Time for answers that were begun when the service stops.
+const DRAIN_TIMEOUT: Duration = Duration::from_secs(10);
+/// Pause after the system has refused a connection.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
 /// The address of the other end of a connection.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Peer(pub(super) IpAddr);
+pub(super) struct PeerAddress(pub(super) IpAddr);
 
 /// Answers on `listener` until `stop` is there; then no more connections are accepted, and what
 /// was begun is answered.
@@ -54,19 +54,21 @@ pub async fn serve(
             Ok(accepted) => accepted,
             Err(error) => {
                 tracing::warn!(%error, "a connection was not accepted");
-                tokio::time::sleep(NO_ROOM).await;
+                tokio::time::sleep(ACCEPT_PAUSE).await;
                 continue;
             }
         };
         // Answers are whole when they are written: nothing is gained by waiting for more.
         let _ = stream.set_nodelay(true);
-        let (router, peer) = (router.clone(), ConnectInfo(Peer(address.ip())));
+        let (router, peer) = (router.clone(), ConnectInfo(PeerAddress(address.ip())));
         let service = service_fn(move |mut request: Request<Incoming>| {
             request.extensions_mut().insert(peer);
             router.clone().oneshot(request)
         });
-        let connection =
-            http.serve_connection(TokioIo::new(Patient::new(stream, silence)), service);
+        // Reading needs no time limit here: heads and bodies have theirs.
+        let mut stream = TimeoutStream::new(stream);
+        stream.set_write_timeout(Some(silence));
+        let connection = http.serve_connection(TokioIo::new(Box::pin(stream)), service);
         let connection = connections.watch(connection);
         tokio::spawn(async move {
             let _place = place;
@@ -76,7 +78,7 @@ pub async fn serve(
         });
     }
     drop(listener);
-    if tokio::time::timeout(LAST_ANSWERS, connections.shutdown()).await.is_err() {
+    if tokio::time::timeout(DRAIN_TIMEOUT, connections.shutdown()).await.is_err() {
         tracing::warn!("some answers were not finished in time");
     }
     Ok(())

@@ -9,7 +9,7 @@ use mist_runner::registry;
 use scattering::spec;
 use serde_json::Value;
 
-use super::{error::ApiError, extract::Path, problem::Problems};
+use super::{error::ApiError, extract::PathParameters, problem::Problems};
 
 /// Every class of model and of what models are made of, by family.
 #[utoipa::path(
@@ -33,7 +33,9 @@ pub(super) async fn list() -> Json<Value> {
         body = Value, content_type = "application/schema+json",
     ), Problems),
 )]
-pub(super) async fn get(Path(name): Path<String>) -> Result<Response, ApiError> {
+pub(super) async fn get(
+    PathParameters(name): PathParameters<String>,
+) -> Result<Response, ApiError> {
     let class = spec::find_class(&name);
     let class = class.ok_or_else(|| ApiError::NotFound(registry::unknown(&name)))?;
     let kind = [(header::CONTENT_TYPE, "application/schema+json")];

@@ -1,10 +1,5 @@
 //! A program that is run while its client waits.
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, Ordering},
-};
-
 use axum::{
     Json,
     extract::State,
@@ -17,14 +12,14 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::{
-    App,
-    error::ApiError,
-    extract::Accept,
-    problem::{Found, Problems},
-    program::ProgramBody,
+    cancel::CancelOnDrop, error::ApiError, extract::Accept, problem::Problems, state::App,
 };
-use crate::jobs::MeasuredSink;
-use crate::limits::ServeLimits;
+use crate::{
+    failure::LocatedDiagnostic,
+    limits::ServeLimits,
+    output::BoundedOutput,
+    program::{ProgramError, ProgramRequest},
+};
 
 /// Run a program with its data files; the answer is its table: text as the program writes it,
 /// CSV, or JSON.
@@ -36,7 +31,7 @@ use crate::limits::ServeLimits;
     path = "/v1/run",
     tag = "programs",
     request_body(content(
-        (ProgramBody = "application/json"), (String = "text/plain"), (ProgramBody = "multipart/form-data"),
+        (ProgramRequest = "application/json"), (String = "text/plain"), (ProgramRequest = "multipart/form-data"),
     )),
     responses(
         (status = 200, description = "The table", content(
@@ -48,56 +43,58 @@ use crate::limits::ServeLimits;
 pub(super) async fn run(
     State(app): State<App>,
     accept: Accept,
-    body: ProgramBody,
+    body: ProgramRequest,
 ) -> Result<Response, ApiError> {
-    let leash = Leash::default();
-    let control = Control { cancel: leash.0.clone(), progress: None };
+    let cancel = CancelOnDrop::default();
+    let control = cancel.control();
     let limits = app.limits.clone();
     let (text, header_lines) =
         app.compute_in_time(move || attempt(&body, &limits, &control)).await??;
     Ok(answer(text, header_lines, accept))
 }
 
-/// What is wrong with a program, without a run of it; the body is that of `/v1/run`.
+/// Check a program without running it; the body is that of `/v1/run`.
 #[utoipa::path(
     post,
     path = "/v1/check",
     tag = "programs",
     request_body(content(
-        (ProgramBody = "application/json"), (String = "text/plain"), (ProgramBody = "multipart/form-data"),
+        (ProgramRequest = "application/json"), (String = "text/plain"), (ProgramRequest = "multipart/form-data"),
     )),
     responses((status = 200, description = "Empty if nothing is", body = Checked), Problems),
 )]
 pub(super) async fn check(
     State(app): State<App>,
-    body: ProgramBody,
+    body: ProgramRequest,
 ) -> Result<Json<Checked>, ApiError> {
     let limits = app.limits.clone();
-    let work = move || body.check(limits.engine(limits.max_time)).err();
-    let problem = app.compute_in_time(work).await?.map(ApiError::problem);
+    let work = move || body.compile(limits.engine(limits.max_time)).err();
+    let problem = app.compute_in_time(work).await?.map(|error| ApiError::from(error).problem());
     match problem {
         None => Ok(Json(Checked { diagnostics: Vec::new() })),
-        Some(problem) if problem.diagnostics.is_empty() => Err(ApiError::Told(Box::new(problem))),
+        Some(problem) if problem.diagnostics.is_empty() => {
+            Err(ApiError::Problem(Box::new(problem)))
+        }
         Some(problem) => Ok(Json(Checked { diagnostics: problem.diagnostics })),
     }
 }
 
-/// What a check found.
+/// The result of a check.
 #[derive(Serialize, ToSchema)]
 pub(super) struct Checked {
     /// Every mistake, in the order of the text.
-    diagnostics: Vec<Found>,
+    diagnostics: Vec<LocatedDiagnostic>,
 }
 
 /// The results, and how many header lines they have.
 fn attempt(
-    body: &ProgramBody,
+    body: &ProgramRequest,
     limits: &ServeLimits,
     control: &Control,
-) -> Result<(String, usize), ApiError> {
-    let job = body.check(limits.engine(limits.max_time))?;
-    let mut sink = MeasuredSink::new(limits.max_output);
-    job.run(&mut sink, control).map_err(|failure| ApiError::of_program(&body.program, failure))?;
+) -> Result<(String, usize), ProgramError> {
+    let job = body.compile(limits.engine(limits.max_time))?;
+    let mut sink = BoundedOutput::new(limits.max_output);
+    job.run(&mut sink, control).map_err(|failure| ProgramError::of(&body.program, failure))?;
     Ok((sink.results, job.program().files.headers().count()))
 }
 
@@ -109,15 +106,5 @@ pub(super) fn answer(text: String, header_lines: usize, accept: Accept) -> Respo
         Accept::Text => typed("text/plain; charset=utf-8", text),
         Accept::Csv => typed("text/csv; charset=utf-8", Results::read(&text, header_lines).csv()),
         Accept::Json => Json(Results::read(&text, header_lines).json()).into_response(),
-    }
-}
-
-/// Stops the work when the answer is not awaited any more, because the client has gone.
-#[derive(Default)]
-pub(super) struct Leash(pub(super) Arc<AtomicBool>);
-
-impl Drop for Leash {
-    fn drop(&mut self) {
-        self.0.store(true, Ordering::Relaxed);
     }
 }

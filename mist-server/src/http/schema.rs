@@ -8,27 +8,29 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use utoipa::{IntoParams, ToSchema};
 
-use super::program::ProgramBody;
+use crate::program::ProgramRequest;
 
 /// The name of a material.
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
 #[expect(dead_code, reason = "describes the API")]
-pub(super) struct Name {
+pub(super) struct MaterialName {
     /// The name of the material.
     name: String,
 }
 
 /// The content of a material.
 #[derive(Debug, Serialize, ToSchema)]
-pub(super) struct Hash {
+#[schema(as = Hash)]
+pub(super) struct MaterialHash {
     /// `sha256-…` of the body that brought it.
     pub(super) hash: String,
 }
 
 /// A material in the list.
 #[derive(Debug, Serialize, ToSchema)]
-pub(super) struct Listed {
+#[schema(as = Listed)]
+pub(super) struct MaterialEntry {
     /// Its name.
     pub(super) name: String,
     /// `sha256-…` of the body that brought it.
@@ -43,7 +45,7 @@ pub(super) enum MaterialBody {
     /// A model with the parameters that differ from its defaults.
     Model(ModelBody),
     /// A program with its data files.
-    Program(ProgramBody),
+    Program(ProgramRequest),
 }
 
 /// A model with the parameters that differ from its defaults.
@@ -60,7 +62,7 @@ pub(super) struct ModelBody {
     files: Option<BTreeMap<String, String>>,
 }
 
-/// What `mist eval` reads.
+/// The input of `mist eval`.
 #[derive(Deserialize, ToSchema)]
 #[expect(dead_code, reason = "describes the API")]
 pub(super) struct EvalRequest {
@@ -73,16 +75,17 @@ pub(super) struct EvalRequest {
     /// `psps`, `xyxy` or `plane`.
     #[schema(example = "psps")]
     basis: Option<String>,
-    /// Where the model is evaluated.
-    geometries: Vec<Angles>,
+    /// Directions at which the model is evaluated.
+    geometries: Vec<GeometryAngles>,
     /// Texts of data files by the names that parameters give them.
     files: Option<BTreeMap<String, String>>,
 }
 
 /// One geometry, radians.
 #[derive(Deserialize, ToSchema)]
+#[schema(as = Angles)]
 #[expect(dead_code, reason = "describes the API")]
-pub(super) struct Angles {
+pub(super) struct GeometryAngles {
     /// Polar angle of incidence.
     #[schema(example = 0.5)]
     theta_i: f64,
@@ -96,7 +99,7 @@ pub(super) struct Angles {
     rotation: Option<f64>,
 }
 
-/// What `mist eval` answers.
+/// The output of `mist eval`.
 #[derive(Serialize, ToSchema)]
 pub(super) struct EvalAnswer {
     /// One Mueller matrix (1/sr) per geometry, row by row; what is not finite is a text.

@@ -1,46 +1,46 @@
-//! What handlers share.
+//! The state that handlers share.
 
 use std::{path::Path, sync::Arc};
 
-use super::{
-    error::ApiError,
-    evaluate::Ready,
-    file::too_long,
-    flight::Flights,
-    materials::{Kept, Materials},
-    metrics::Metrics,
-    recent::Recent,
-};
+use axum::body::Bytes;
+
+use super::{error::ApiError, prepared_lobes::PreparedLobesCache, problem::Problem};
 use crate::{
-    compute::Compute,
+    compute::ComputePool,
     jobs::Jobs,
-    memory::Memory,
+    keys::Keys,
+    limits::{LimitReached, ServeLimits},
+    materials::{Materials, StoredMaterial},
+    memory::MemoryBudget,
+    metrics::Metrics,
+    single_flight::{Producer, SingleFlight},
     store::{Store, StoreError},
 };
-use crate::{keys::Keys, limits::ServeLimits};
 
-/// Materials at the wavelengths of a query that are kept ready.
-const READY: usize = 64;
+/// Files of materials that are computed or kept.
+pub(super) type FileFlights = SingleFlight<Bytes, Problem>;
+/// The side that computes a file.
+pub(super) type FileProducer = Producer<Bytes, Problem>;
 
-/// What handlers share; clones are the same.
+/// The state that handlers share; clones share it.
 #[derive(Clone)]
 pub struct App {
     pub(super) limits: Arc<ServeLimits>,
     pub(super) keys: Option<Arc<Keys>>,
-    pub(super) compute: Compute,
-    pub(super) memory: Memory,
+    pub(super) compute: ComputePool,
+    pub(super) memory: MemoryBudget,
     pub(super) materials: Materials,
-    pub(super) ready: Recent<Ready>,
-    pub(super) flights: Flights,
+    pub(super) lobes: PreparedLobesCache,
+    pub(super) files: FileFlights,
     pub(super) metrics: Metrics,
     pub(super) jobs: Jobs,
     store: Store,
 }
 
-/// Why the service cannot start.
+/// The reason why the service cannot start.
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
-    /// What it kept cannot be read.
+    /// The store cannot be read.
     #[error("{0}")]
     Store(String),
     /// The file of keys is wrong.
@@ -55,18 +55,18 @@ impl From<StoreError> for StartError {
 }
 
 impl Default for App {
-    /// Without limits of its own and without keys; what it keeps is gone with it.
+    /// Without limits of its own and without keys; its store is in memory.
     fn default() -> Self {
         Self::new(ServeLimits::default(), None, None).expect("memory can be read and written")
     }
 }
 
 impl App {
-    /// With what is kept in the folder `data`, or nothing; `keys` is the text of a file of keys.
+    /// With the store in the folder `data`, or in memory; `keys` is the text of a file of keys.
     ///
     /// # Errors
     ///
-    /// If what is kept cannot be read, or there is something wrong with the keys.
+    /// If the store cannot be read, or the keys are wrong.
     pub fn new(
         limits: ServeLimits,
         data: Option<&Path>,
@@ -76,23 +76,25 @@ impl App {
         let store = Store::new(data)?;
         let materials = Materials::default();
         for (name, text) in store.materials()? {
-            match Kept::new(text, &limits) {
-                Ok(kept) => materials.keep(name, kept),
-                Err(error) => {
-                    let error = error.problem().message;
-                    tracing::warn!(name, error, "a material cannot be prepared any more");
-                }
+            match StoredMaterial::new(text, &limits) {
+                Ok(material) => materials.insert(name, material),
+                Err(error) => tracing::warn!(
+                    name,
+                    error = error.message(),
+                    "a stored material cannot be used; it stays in the store: put it again, or \
+                     delete it"
+                ),
             }
         }
         let jobs = Jobs::open(store.clone(), limits.clone())?;
         jobs.start();
         Ok(Self {
             keys: keys.map(Keys::parse).transpose().map_err(StartError::Keys)?.map(Arc::new),
-            compute: Compute::new(limits.max_computing, limits.max_waiting),
-            memory: Memory::new(limits.max_memory),
+            compute: ComputePool::new(limits.max_computing, limits.max_waiting),
+            memory: MemoryBudget::new(limits.max_memory),
             materials,
-            ready: Recent::new(READY),
-            flights: Flights::new(limits.max_kept),
+            lobes: PreparedLobesCache::default(),
+            files: FileFlights::new(limits.max_kept),
             metrics: Metrics::default(),
             jobs,
             store,
@@ -100,28 +102,35 @@ impl App {
         })
     }
 
-    /// Ends the answers that go on as long as a job: they would keep a service that stops.
+    /// Ends the answers that last as long as a job, so that the service can stop.
     pub fn leave(&self) {
         self.jobs.leave();
     }
 
-    /// Stops the jobs; what they finished is kept. Returns when they have stopped.
+    /// Stops the jobs; their finished steps are stored. Returns when they have stopped.
     pub fn stop(&self) {
         self.jobs.stop();
     }
 
-    /// Does `work` where it does not keep others waiting, within the time of one answer.
+    /// Does `work` on the compute pool, within the time of one answer.
     pub(super) async fn compute_in_time<T: Send + 'static>(
         &self,
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Result<T, ApiError> {
         match tokio::time::timeout(self.limits.time(), self.compute.run(work)).await {
             Ok(done) => Ok(done?),
-            Err(_) => Err(too_long(self)),
+            Err(_) => Err(self.too_long()),
         }
     }
 
-    /// Reads or writes what is kept.
+    /// The error of work that takes longer than one answer may.
+    pub(super) fn too_long(&self) -> ApiError {
+        let value = self.limits.max_time;
+        let message = format!("the answer takes longer than {value} s");
+        ApiError::Limit(LimitReached { flag: "max-time", value, message })
+    }
+
+    /// Reads or writes the store.
     pub(super) async fn store<T: Send + 'static>(
         &self,
         work: impl FnOnce(&Store) -> Result<T, StoreError> + Send + 'static,

@@ -15,20 +15,20 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::{
-    App,
-    asked::{Asked, admit},
     error::ApiError,
     export,
-    extract::Path,
-    file::Asker,
+    extract::PathParameters,
+    file_response::FileRequest,
     problem::Problems,
+    query::{MaterialQuery, admit},
+    state::App,
 };
 
 /// A table of a material.
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
 #[expect(dead_code, reason = "describes the API")]
-pub(super) struct Named {
+pub(super) struct TablePath {
     /// The name of the material.
     name: String,
     /// `table.mtab`, `table.mspd`, `table.json` or `table.svg`. As `mist export` makes them, with
@@ -47,7 +47,7 @@ pub(super) struct Named {
     get,
     path = "/v1/materials/{name}/{file}",
     tag = "materials",
-    params(Named, Asked),
+    params(TablePath, MaterialQuery),
     responses(
         (status = 200, description = "The table", headers(("ETag" = String)), content(
             (String = "text/plain"), (serde_json::Value = "application/json"), (String = "image/svg+xml"),
@@ -62,7 +62,7 @@ pub(super) struct Named {
 )]
 pub(super) async fn table(
     State(app): State<App>,
-    Path((name, file)): Path<(String, String)>,
+    PathParameters((name, file)): PathParameters<(String, String)>,
     uri: Uri,
     headers: HeaderMap,
 ) -> Result<Response, ApiError> {
@@ -92,11 +92,11 @@ async fn colours(
     (format, writer): (&'static FileFormat, ColourWriter),
     (headers, uri): (&HeaderMap, &Uri),
 ) -> Result<Response, ApiError> {
-    let asked = Asked::of(uri)?;
+    let asked = MaterialQuery::of(uri)?;
     let kept = app.materials.find(name)?;
     let content = (name, &kept.hash, format.name, asked.content());
-    let asker = Asker::new(&content, format.media_type, asked.wait(), (headers, uri))?;
-    if let Some(answer) = asker.known() {
+    let file = FileRequest::new(&content, format.media_type, asked.wait(), (headers, uri))?;
+    if let Some(answer) = file.not_modified() {
         return Ok(answer);
     }
     let mut request = asked.wanted()?.request(name, None)?;
@@ -109,7 +109,7 @@ async fn colours(
             .map_err(|error| MaterialError::NotFinite(error.to_string()))?;
         Ok(Bytes::from(text))
     };
-    asker.answer(app, bytes, work).await
+    file.answer(app, bytes, work).await
 }
 
 /// Bytes of a table and of its text while it is made, about: its numbers as f64 and with about

@@ -1,4 +1,4 @@
-//! One job: where it stands and what is kept of it.
+//! One job and its record in the store.
 
 use std::sync::{
     Arc, Mutex, PoisonError,
@@ -8,34 +8,35 @@ use std::sync::{
 use serde::{Deserialize, Serialize};
 use tokio::sync::watch;
 
-use super::{MeasuredSink, Status};
+use super::status::JobStatus;
+use crate::output::BoundedOutput;
 
 /// One job.
 pub(crate) struct Job {
-    /// Its name in addresses.
+    /// Name in addresses.
     pub(crate) id: String,
     pub(super) number: u64,
     pub(super) client: String,
     /// Bytes of its program and of its texts.
     pub(super) bytes: AtomicU64,
     pub(super) cancel: Arc<AtomicBool>,
-    pub(super) status: watch::Sender<Status>,
-    /// The texts as far as they are, while it runs.
-    pub(super) live: Mutex<MeasuredSink>,
+    pub(super) status: watch::Sender<JobStatus>,
+    /// The texts so far, while it runs.
+    pub(super) output: Mutex<BoundedOutput>,
 }
 
-/// What is kept of a job.
+/// The record of a job in the store.
 #[derive(Deserialize, Serialize)]
-pub(super) struct Record {
+pub(super) struct JobRecord {
     pub(super) number: u64,
     pub(super) client: String,
     #[serde(default)]
     pub(super) bytes: u64,
-    pub(super) status: Status,
+    pub(super) status: JobStatus,
 }
 
 impl Job {
-    pub(super) fn new(record: Record) -> Self {
+    pub(super) fn new(record: JobRecord) -> Self {
         Self {
             id: record.status.id.clone(),
             number: record.number,
@@ -43,28 +44,28 @@ impl Job {
             bytes: AtomicU64::new(record.bytes),
             cancel: Arc::default(),
             status: watch::channel(record.status).0,
-            live: Mutex::default(),
+            output: Mutex::default(),
         }
     }
 
-    /// Where it stands.
-    pub(crate) fn status(&self) -> Status {
+    /// Its status now.
+    pub(crate) fn status(&self) -> JobStatus {
         self.status.borrow().clone()
     }
 
-    /// Where it stands, and every change.
-    pub(crate) fn watch(&self) -> watch::Receiver<Status> {
+    /// Its status and every change of it.
+    pub(crate) fn watch(&self) -> watch::Receiver<JobStatus> {
         self.status.subscribe()
     }
 
-    /// The results as far as they are.
+    /// The results so far.
     pub(crate) fn results_so_far(&self) -> String {
-        self.live.lock().unwrap_or_else(PoisonError::into_inner).results.clone()
+        self.output.lock().unwrap_or_else(PoisonError::into_inner).results.clone()
     }
 
-    /// What is kept of it when it stands at `status`.
-    pub(super) fn record(&self, status: Status) -> String {
-        let record = Record {
+    /// Its record with `status`.
+    pub(super) fn record(&self, status: JobStatus) -> String {
+        let record = JobRecord {
             number: self.number,
             client: self.client.clone(),
             bytes: self.bytes.load(Ordering::Relaxed),
@@ -74,6 +75,7 @@ impl Job {
     }
 }
 
-pub(super) fn json(what: &impl Serialize) -> String {
-    serde_json::to_string(what).expect("texts and numbers have a JSON form")
+/// The JSON of a record or a program.
+pub(super) fn json(value: &impl Serialize) -> String {
+    serde_json::to_string(value).expect("texts and numbers have a JSON form")
 }

@@ -1,16 +1,16 @@
-//! Where a job stands.
+//! The state of a job and its times.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
-use crate::http::Problem;
+use crate::failure::FailureReport;
 
-/// What a job is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, ToSchema)]
+/// State of a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, utoipa::ToSchema)]
+#[schema(as = State)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum State {
+pub(crate) enum JobState {
     /// It waits.
     Queued,
     /// It runs.
@@ -19,11 +19,11 @@ pub(crate) enum State {
     Done,
     /// It ended without its texts.
     Failed,
-    /// Somebody did not want it any more.
+    /// A client cancelled it.
     Cancelled,
 }
 
-impl State {
+impl JobState {
     /// Every state.
     pub(crate) const ALL: [Self; 5] =
         [Self::Queued, Self::Running, Self::Done, Self::Failed, Self::Cancelled];
@@ -39,30 +39,30 @@ impl State {
         }
     }
 
-    /// Whether nothing more will happen.
+    /// True if it will not change any more.
     pub(crate) fn is_over(self) -> bool {
         matches!(self, Self::Done | Self::Failed | Self::Cancelled)
     }
 }
 
-/// Where a job stands; times are seconds since 1970.
-#[derive(Clone, Debug, Deserialize, Serialize, ToSchema)]
-pub(crate) struct Status {
-    /// Its name in addresses.
+/// Status of a job; times are seconds since 1970.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub(crate) struct JobStatus {
+    /// Name in addresses.
     pub(crate) id: String,
-    /// What it is doing.
-    pub(crate) state: State,
+    /// Its state.
+    pub(crate) state: JobState,
     /// The part that is done, 0 to 1.
     pub(crate) progress: f64,
     /// The name that was given to it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) job: Option<String>,
-    /// When it came.
+    /// Time of its arrival.
     pub(crate) submitted: f64,
-    /// When it was begun last.
+    /// Time of its last start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) started: Option<f64>,
-    /// When it was over.
+    /// Time of its end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) finished: Option<f64>,
     /// Lines before the line of names in its results.
@@ -74,9 +74,9 @@ pub(crate) struct Status {
     /// Steps that an earlier run of the service had finished already.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) resumed_after: Option<u64>,
-    /// Why it failed.
+    /// The reason why it failed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) problem: Option<Problem>,
+    pub(crate) problem: Option<FailureReport>,
     /// Defects of NIST's library that a sound run stepped around.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) defects: Vec<String>,
@@ -85,12 +85,12 @@ pub(crate) struct Status {
     pub(crate) texts: Vec<String>,
 }
 
-impl Status {
+impl JobStatus {
     /// A job that came now.
     pub(super) fn new(id: String, job: Option<String>) -> Self {
         Self {
             id,
-            state: State::Queued,
+            state: JobState::Queued,
             progress: 0.0,
             job,
             submitted: now(),
@@ -106,23 +106,22 @@ impl Status {
     }
 
     pub(super) fn start(&mut self) {
-        self.state = State::Running;
+        self.state = JobState::Running;
         self.started = Some(now());
     }
 
-    pub(super) fn finish(&mut self, state: State) {
+    pub(super) fn finish(&mut self, state: JobState) {
         self.state = state;
         self.finished = Some(now());
-        if state == State::Done {
+        if state == JobState::Done {
             self.progress = 1.0;
         }
     }
 
-    /// Its end could not be kept, so its texts cannot be had.
-    pub(super) fn lost(&mut self, why: &str) {
-        let status = axum::http::StatusCode::SERVICE_UNAVAILABLE;
-        self.state = State::Failed;
-        self.problem = Some(Problem::new(status, "unavailable", why));
+    /// Marks a job as failed because its texts cannot be stored.
+    pub(super) fn lose_texts(&mut self, why: &str) {
+        self.state = JobState::Failed;
+        self.problem = Some(FailureReport::new("unavailable", why));
         self.texts.clear();
     }
 }

@@ -1,4 +1,4 @@
-//! The finished steps of a job on their way into the store.
+//! Writes the finished steps of a job into the store, and reads them back.
 
 use std::{
     io,
@@ -9,28 +9,28 @@ use mist_engine::{Evaluated, Journal, StepResult};
 
 use crate::store::Store;
 
-/// Steps are kept together at least this often: what a crash can cost.
-const OFTEN: Duration = Duration::from_millis(200);
-/// And whenever they have so many bytes.
-const BYTES: usize = 4 << 20;
+/// Steps are stored together after this time: the work that a crash can cost.
+const MAX_DELAY: Duration = Duration::from_millis(200);
+/// Steps are stored together when they have so many bytes.
+const MAX_BYTES: usize = 4 << 20;
 /// Bytes of a number.
 const NUMBER: usize = 8;
 
 /// The steps of one job.
-pub(super) struct Ledger<'a> {
+pub(super) struct StepJournal<'a> {
     store: &'a Store,
     id: &'a str,
-    /// Whether the store may have the next step.
+    /// True as long as the store may have the next step.
     recalling: bool,
-    /// How many steps the store had.
+    /// Number of steps that the store had.
     pub(super) recalled: u64,
     first: u64,
     pending: Vec<Vec<u8>>,
     bytes: usize,
-    kept: Instant,
+    stored_at: Instant,
 }
 
-impl<'a> Ledger<'a> {
+impl<'a> StepJournal<'a> {
     pub(super) fn new(store: &'a Store, id: &'a str) -> Self {
         Self {
             store,
@@ -40,27 +40,27 @@ impl<'a> Ledger<'a> {
             first: 0,
             pending: Vec::new(),
             bytes: 0,
-            kept: Instant::now(),
+            stored_at: Instant::now(),
         }
     }
 
-    /// Keeps what is still on its way.
+    /// Stores the pending steps.
     ///
     /// # Errors
     ///
-    /// If it cannot be kept.
+    /// If they cannot be stored.
     pub(super) fn flush(&mut self) -> io::Result<()> {
         if !self.pending.is_empty() {
             self.store.put_steps(self.id, self.first, &self.pending)?;
             self.pending.clear();
             self.bytes = 0;
         }
-        self.kept = Instant::now();
+        self.stored_at = Instant::now();
         Ok(())
     }
 }
 
-impl Journal for Ledger<'_> {
+impl Journal for StepJournal<'_> {
     fn recall(&mut self, step: u64) -> io::Result<Option<StepResult>> {
         if !self.recalling {
             return Ok(None);
@@ -82,7 +82,7 @@ impl Journal for Ledger<'_> {
             self.bytes += bytes.len();
             self.pending.push(bytes);
         }
-        if self.bytes >= BYTES || self.kept.elapsed() >= OFTEN {
+        if self.bytes >= MAX_BYTES || self.stored_at.elapsed() >= MAX_DELAY {
             self.flush()?;
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! A file of a material: told by its tag, computed once for everybody who asks, and kept.
+//! Files of materials: identified by a tag, computed once for all clients, and kept.
 
 use std::time::Duration;
 
@@ -12,19 +12,19 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use super::{
-    App,
-    error::{ApiError, Limit},
-    flight::{Landing, Outcome},
+    error::ApiError,
+    problem::Problem,
+    state::{App, FileProducer},
 };
-use crate::memory::Reserved;
+use crate::memory::Reservation;
 
 /// Seconds that a client waits for a file unless it says otherwise.
 const PATIENCE: f64 = 30.0;
 /// Seconds after which a client may ask again for a file that is being computed.
 const RETRY_AFTER: u32 = 1;
 
-/// Which file is asked for, and how.
-pub(super) struct Asker<'a> {
+/// A request for a file of a material.
+pub(super) struct FileRequest<'a> {
     tag: String,
     kind: &'static str,
     headers: &'a HeaderMap,
@@ -32,7 +32,7 @@ pub(super) struct Asker<'a> {
     patience: Duration,
 }
 
-impl<'a> Asker<'a> {
+impl<'a> FileRequest<'a> {
     /// A request for the file that depends on `content` alone, of the media type `kind`, by a
     /// client that waits for `wait` seconds if the query says so.
     pub(super) fn new(
@@ -47,69 +47,65 @@ impl<'a> Asker<'a> {
         Ok(Self { tag: tag_of(&content), kind, headers, uri, patience })
     }
 
-    /// The answer to a client that has the file already.
-    pub(super) fn known(&self) -> Option<Response> {
+    /// The answer 304 to a client that has the file already.
+    pub(super) fn not_modified(&self) -> Option<Response> {
         is_known(self.headers, &self.tag)
             .then(|| (StatusCode::NOT_MODIFIED, [(header::ETAG, &self.tag)]).into_response())
     }
 
-    /// The file, or 202 if it takes longer than the client waits. `work` makes it, and needs about
-    /// so many `bytes` of memory.
+    /// The file, or 202 if it takes longer than the client waits. `work` computes it, and needs
+    /// about so many `bytes` of memory.
     pub(super) async fn answer(
         self,
         app: &App,
         bytes: f64,
         work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
     ) -> Result<Response, ApiError> {
-        let (mut waiting, landing) = app.flights.join(&self.tag);
-        app.metrics.count_table(landing.is_none());
-        if let Some(landing) = landing {
+        let (mut subscriber, producer) = app.files.join(&self.tag);
+        app.metrics.count_table(producer.is_none());
+        if let Some(producer) = producer {
             let held = app.memory.reserve(bytes)?;
-            tokio::spawn(fly(app.clone(), landing, held, work));
+            tokio::spawn(compute(app.clone(), producer, held, work));
         }
-        match waiting.outcome(self.patience).await {
+        match subscriber.wait(self.patience).await {
             Some(Ok(file)) => {
                 let headers = [(header::CONTENT_TYPE, self.kind)];
                 Ok(([(header::ETAG, self.tag)], headers, file).into_response())
             }
-            Some(Err(problem)) => Err(ApiError::Told(Box::new(problem))),
+            Some(Err(problem)) => Err(ApiError::Problem(Box::new(problem))),
             None => Ok(come_back(self.uri)),
         }
     }
 }
 
-/// Makes a file for everybody who waits for it.
-async fn fly(
+/// Computes a file for all clients that wait for it.
+async fn compute(
     app: App,
-    landing: Landing,
-    held: Reserved,
+    producer: FileProducer,
+    held: Reservation,
     work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
 ) {
-    let control = Control { cancel: landing.cancel.clone(), progress: None };
+    let control = Control { cancel: producer.cancel.clone(), progress: None };
     let work = move || {
         let _held = held;
         work(&control)
     };
     let computed = tokio::time::timeout(app.limits.time(), app.compute.run(work)).await;
-    let outcome: Outcome = match computed {
+    let result: Result<Bytes, Problem> = match computed {
         Ok(Ok(done)) => done.map_err(ApiError::problem),
         Ok(Err(error)) => Err(ApiError::from(error).problem()),
         Err(_) => {
-            landing.cancel.store(true, std::sync::atomic::Ordering::Relaxed);
-            Err(too_long(&app).problem())
+            producer.cancel.store(true, std::sync::atomic::Ordering::Relaxed);
+            Err(app.too_long().problem())
         }
     };
-    landing.land(outcome);
+    let bytes = result.as_ref().map_or(0, Bytes::len);
+    // A failure of the service may be over when the next client asks.
+    let keep_failure = result.as_ref().is_err_and(|problem| problem.status < 500);
+    producer.publish(result, bytes, keep_failure);
 }
 
-/// The work takes longer than one answer may.
-pub(super) fn too_long(app: &App) -> ApiError {
-    let value = app.limits.max_time;
-    let message = format!("the answer takes longer than {value} s");
-    ApiError::Limit(Limit { flag: "max-time", value, message })
-}
-
-/// How long the client waits: as the query, the header `Prefer` (RFC 7240) or nobody says.
+/// Time for which the client waits: of the query, of the header `Prefer` (RFC 7240), or the default.
 fn patience(wait: Option<f64>, headers: &HeaderMap) -> Duration {
     let prefers = headers.get_all("prefer").iter().filter_map(|value| value.to_str().ok());
     let mut preferred = None;
@@ -135,7 +131,7 @@ fn come_back(uri: &Uri) -> Response {
     response
 }
 
-/// The tag of what `content` says, as this version answers it: equal requests for equal materials
+/// The tag of `content` as this version answers it: equal requests for equal materials
 /// have equal answers, so the tag needs no file.
 fn tag_of(content: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
@@ -143,7 +139,7 @@ fn tag_of(content: &str) -> String {
     format!("\"sha256-{digest:x}\"")
 }
 
-/// Whether the client has what `tag` names: `If-None-Match` is `*` or a list of tags.
+/// True if the client has the file with this tag: `If-None-Match` is `*` or a list of tags.
 fn is_known(headers: &HeaderMap, tag: &str) -> bool {
     let given = headers.get_all(header::IF_NONE_MATCH).iter().filter_map(|v| v.to_str().ok());
     given

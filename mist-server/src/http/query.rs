@@ -10,18 +10,14 @@ use rise_bridge::write::Style;
 use serde::{Deserialize, Serialize};
 use utoipa::IntoParams;
 
-use super::{
-    error::{ApiError, Limit},
-    extract::Query,
-    renderer,
-};
-use crate::limits::ServeLimits;
+use super::{error::ApiError, extract::Query, renderer};
+use crate::limits::{LimitReached, ServeLimits};
 
 /// The keys of a query; all have defaults but the directions.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
-pub(super) struct Asked {
+pub(super) struct MaterialQuery {
     /// Nodes of the grid in degrees: `0:2:90`, or a list with commas.
     thetai: Option<String>,
     /// As `thetai`.
@@ -69,7 +65,7 @@ pub(super) struct Asked {
     wait: Option<f64>,
 }
 
-impl<S: Send + Sync> FromRequestParts<S> for Asked {
+impl<S: Send + Sync> FromRequestParts<S> for MaterialQuery {
     type Rejection = ApiError;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, ApiError> {
@@ -77,43 +73,43 @@ impl<S: Send + Sync> FromRequestParts<S> for Asked {
     }
 }
 
-impl Asked {
-    /// What the query of an address says.
+impl MaterialQuery {
+    /// The query of the address `uri`.
     pub(super) fn of(uri: &Uri) -> Result<Self, ApiError> {
-        let Query(asked) = Query::<Self>::of(uri)?;
+        let Query(query) = Query::<Self>::of(uri)?;
         let refuse = |text: &str| Err(ApiError::Query(text.into()));
-        if asked.digits.is_some_and(|digits| !(1..=17).contains(&digits)) {
+        if query.digits.is_some_and(|digits| !(1..=17).contains(&digits)) {
             return refuse("digits is from 1 to 17");
         }
-        if asked.component > 3 {
+        if query.component > 3 {
             return refuse("component is 0, 1, 2 or 3 for I, Q, U, V");
         }
-        if asked.stokes > 1 || asked.xyz > 1 {
+        if query.stokes > 1 || query.xyz > 1 {
             return refuse("stokes and xyz are 0 or 1");
         }
-        if asked.wait.is_some_and(|wait| !(0.0..=3600.0).contains(&wait)) {
+        if query.wait.is_some_and(|wait| !(0.0..=3600.0).contains(&wait)) {
             return refuse("wait is from 0 to 3600 seconds");
         }
-        Ok(asked)
+        Ok(query)
     }
 
-    /// How the text of the table is written.
+    /// The style of the table's text.
     pub(super) fn style(&self) -> Style {
         let plain = Style::default();
         Style { digits: self.digits.unwrap_or(plain.digits), xyz: self.xyz != 0 }
     }
 
-    /// The Stokes component whose spectra are wanted.
+    /// The Stokes component of the spectra.
     pub(super) fn component(&self) -> usize {
         self.component
     }
 
-    /// What of the exit light is wanted.
+    /// The quantity of the exit light.
     pub(super) fn out(&self) -> Option<&str> {
         self.out.as_deref()
     }
 
-    /// Seconds to wait, if the query says so.
+    /// Seconds to wait, if the query has them.
     pub(super) fn wait(&self) -> Option<f64> {
         self.wait
     }
@@ -184,7 +180,7 @@ impl Asked {
 pub(super) fn admit(request: &TableRequest, limits: &ServeLimits) -> Result<(), ApiError> {
     let (rows, waves) = (request.what.rows(), request.wavelengths.len());
     let numbers = rows * waves as f64 * if request.stokes { 4.0 } else { 1.0 };
-    let refuse = |flag, value, message| Err(ApiError::Limit(Limit { flag, value, message }));
+    let refuse = |flag, value, message| Err(ApiError::Limit(LimitReached { flag, value, message }));
     if waves > limits.max_wavelengths {
         let most = limits.max_wavelengths;
         let message = format!("lambda has {waves} wavelengths, more than {most}");
