@@ -51,10 +51,10 @@ pub(super) struct CompareSpectraArgs {
     json: JsonFlag,
 }
 
-/// Spectra of a file, on a scale on which a perfect diffuser is 1, and what each is called.
-struct Spectra(Vec<(String, Spectrum)>);
+/// Spectra of a file with their names, on a scale on which a perfect diffuser is 1.
+struct NamedSpectra(Vec<(String, Spectrum)>);
 
-impl Spectra {
+impl NamedSpectra {
     fn read(path: &std::path::Path, args: &CompareSpectraArgs) -> Result<Self, CommandError> {
         let source = InputText::read(path)?;
         let refused = |error: &dyn std::fmt::Display| {
@@ -95,8 +95,8 @@ pub(super) fn compare_spectra(args: &CompareSpectraArgs) -> Result<(), CommandEr
     let illuminant =
         Illuminant::parse(&args.illuminant.illuminant).map_err(|error| refused(&error))?;
     let observer = Observer::parse(&args.observer.observer).map_err(|error| refused(&error))?;
-    let Spectra(measured) = Spectra::read(&args.measured, args)?;
-    let Spectra(simulated) = Spectra::read(&args.simulated, args)?;
+    let NamedSpectra(measured) = NamedSpectra::read(&args.measured, args)?;
+    let NamedSpectra(simulated) = NamedSpectra::read(&args.simulated, args)?;
     if measured.len() != simulated.len() {
         let (m, s) = (measured.len(), simulated.len());
         return Err(CommandError::Refused(format!(

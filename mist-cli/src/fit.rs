@@ -37,7 +37,7 @@ pub(super) struct FitArgs {
     /// Table of measured values.
     #[arg(long, value_name = "FILE")]
     measured: PathBuf,
-    /// Initial values of variables, in place of the program's values.
+    /// First values of variables, in place of the program's.
     #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = start)]
     start: Vec<(String, f64)>,
     /// The least and the largest value that variables may have.

@@ -17,9 +17,9 @@ Examples:
   mist key --hash ci < key.txt >> keys
   curl -H \"Authorization: Bearer $KEY\" http://127.0.0.1:8650/v1/materials")]
 pub(super) struct KeyArgs {
-    /// Name of the holder of the key.
+    /// Name of the client that has the key.
     name: String,
-    /// Scopes of the key: read for requests without changes, run for changes and computations.
+    /// Permissions: read looks at what is there, run changes and computes.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "read,run")]
     scopes: Vec<Scopes>,
     /// Take the key from standard input.

@@ -6,6 +6,7 @@ use super::{error::CommandError, flags::JsonFlag, output::print};
 
 mod json;
 mod markdown;
+mod names;
 mod text;
 
 /// List the models and what they are made of, or describe one.
@@ -45,41 +46,4 @@ fn find(name: &str) -> Result<&'static Class, CommandError> {
         let hint = hint.unwrap_or_else(|| "`mist models` lists all".into());
         CommandError::Refused(format!("there is no model called {name:?}: {hint}"))
     })
-}
-
-/// Title of a family's list.
-fn title(family: Family) -> &'static str {
-    match family {
-        Family::Brdf => "BRDF models",
-        Family::Slope => "Slope distributions",
-        Family::Shadow => "Shadowing functions",
-        Family::Psd => "Power spectral densities",
-        Family::Stack => "Film stacks",
-        Family::Reflectance => "Reflectances",
-        Family::Grating => "Gratings",
-        Family::CrossGrating => "Crossed gratings",
-        Family::Shape => "Shapes of bodies of revolution",
-        Family::Layer => "Layers of coatings",
-        Family::Phase => "Phase functions",
-        Family::PolarizedPhase => "Polarized phase functions",
-        Family::Scatterer => "Free-space scatterers",
-        Family::Distribution => "Distributions of a diameter",
-        Family::VolumeSize => "Particle sizes per volume",
-        Family::SurfaceSize => "Particle sizes per area",
-    }
-}
-
-/// Kind of a parameter, as text.
-fn kind(kind: spec::ParameterKind) -> String {
-    match kind {
-        spec::ParameterKind::Number => "number".into(),
-        spec::ParameterKind::Integer => "integer".into(),
-        spec::ParameterKind::Text => "text".into(),
-        spec::ParameterKind::File => "file".into(),
-        spec::ParameterKind::Formula => "formula of x".into(),
-        spec::ParameterKind::Index => "index".into(),
-        spec::ParameterKind::Table => "table".into(),
-        spec::ParameterKind::Films => "films".into(),
-        spec::ParameterKind::Member(_, base) => base.into(),
-    }
 }

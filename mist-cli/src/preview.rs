@@ -260,7 +260,7 @@ impl PreviewArgs {
     }
 }
 
-/// Filter that `--filter` names.
+/// The filter that `--filter` names.
 pub(super) fn filter(text: &str) -> Result<Polarization, CommandError> {
     match text {
         "none" => return Ok(Polarization::All),

@@ -33,7 +33,7 @@ pub(super) struct ServeArgs {
     /// File of keys, lines of `mist key`; without it everybody may do everything.
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
-    /// Format of the log on standard error.
+    /// Form of the log on standard error.
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     log_format: MessageFormat,
     /// Log every request, and not only what goes wrong.

@@ -168,7 +168,7 @@ impl TableArgs {
         let source = InputText::read(path)?;
         let prepared = prepared(path, &source, self.compat.mode())?;
         let patches = self.patches.as_deref().map(InputText::read).transpose()?;
-        let wanted = TableQuery {
+        let query = TableQuery {
             grid: self.grid.clone(),
             patches: patches.map(|source| source.text),
             patch: Some(self.patch.clone()),
@@ -179,7 +179,7 @@ impl TableArgs {
             colours: self.colours(),
         };
         let files = DiskFiles::beside(path);
-        let request = wanted.request(&source.stem(), Some(&files)).map_err(refused)?;
+        let request = query.request(&source.stem(), Some(&files)).map_err(refused)?;
         let made = |control: &_| table::table(&prepared, &request, control);
         self.threads.run(&source.stem(), made)?.map_err(refused)
     }

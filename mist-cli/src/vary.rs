@@ -1,4 +1,4 @@
-//! Common part of the commands that run a program with other values of its variables.
+//! Arguments of commands that run a program with other values of its variables.
 
 use std::path::PathBuf;
 

@@ -40,7 +40,7 @@ impl Drop for Service {
     }
 }
 
-/// Output of a tool; `None`, with the reason on stderr, if it is not installed. In
+/// The output of a tool; `None`, with the reason on stderr, where it is not installed. In
 /// continuous integration (`CI` is set) it must be.
 #[expect(clippy::print_stderr, reason = "a test that could not be made says so")]
 fn run(command: &mut Command) -> Option<Output> {

@@ -22,7 +22,7 @@ fn folder() -> TempDir {
     dir
 }
 
-/// Standard output of the command; panics if it fails.
+/// The standard output of the command; panics if it fails.
 fn good(dir: &Path, words: &[&str]) -> String {
     let output = Command::cargo_bin("mist").unwrap().current_dir(dir).args(words).unwrap();
     String::from_utf8(output.stdout).unwrap()

@@ -22,7 +22,7 @@ fn preview(dir: &Path, words: &[&str]) -> (i32, String, String) {
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
-/// Number after `before` in `said`.
+/// The number that follows `before` in `said`.
 fn number_after(said: &str, before: &str) -> f64 {
     let at = said.find(before).unwrap_or_else(|| panic!("{before:?} in {said}")) + before.len();
     said[at..].split_whitespace().next().unwrap().parse().unwrap()

@@ -53,7 +53,7 @@ fn mist(dir: &TempDir, args: &[&str]) -> Command {
     command
 }
 
-/// Output of a command that must end with `code`.
+/// The output of a command, which must end with `code`.
 fn said(mut command: Command, code: i32) -> String {
     let output = command.output().unwrap();
     let text = [output.stdout, output.stderr].concat();

@@ -98,7 +98,7 @@ pub enum MergeError {
 }
 
 impl MergeError {
-    /// True if the shards are at fault, and not a disk that failed.
+    /// True if the shards are at fault, and not a disk.
     pub fn is_refusal(&self) -> bool {
         !matches!(self, Self::Read { .. } | Self::Write { .. })
     }

@@ -25,7 +25,7 @@ pub fn class(class: &Class) -> Value {
     })
 }
 
-/// Message for a class that does not exist.
+/// The message for the name of a class that does not exist.
 pub fn unknown(name: &str) -> String {
     let all = Family::ALL.iter().flat_map(|family| family.classes()).map(|class| class.name);
     let hint = did_you_mean(name, all).map_or_else(String::new, |hint| format!("; {hint}"));
@@ -101,7 +101,7 @@ fn parameter(param: &Parameter) -> Value {
     })
 }
 
-/// Kind of a parameter, and the base of its classes if it is an object.
+/// The kind of a parameter, and the base of its classes if it is an object.
 fn kind(kind: ParameterKind) -> (&'static str, Option<&'static str>) {
     match kind {
         ParameterKind::Number => ("number", None),

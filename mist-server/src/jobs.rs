@@ -15,5 +15,5 @@ mod worker;
 
 pub(crate) use error::JobsError;
 pub(crate) use handle::Jobs;
-pub(crate) use job::Job;
+pub(crate) use job::ServiceJob;
 pub(crate) use status::{JobState, JobStatus};

@@ -33,7 +33,7 @@ pub struct ServeLimits {
     /// Bytes of results, listing and samples of a run together.
     #[arg(long, default_value_t = 256 << 20, value_name = "BYTES")]
     pub max_output: usize,
-    /// Bytes that bodies and the tables that are being made hold together, about.
+    /// Approximate bytes that bodies and tables in the making hold together.
     #[arg(long, default_value_t = 4 << 30, value_name = "BYTES")]
     pub max_memory: usize,
     /// Seconds that one answer may be computed.
@@ -66,7 +66,7 @@ pub struct ServeLimits {
     /// Materials that are kept.
     #[arg(long, default_value_t = 10_000, value_name = "N")]
     pub max_materials: usize,
-    /// Bytes of tables that are kept for the next asker.
+    /// Bytes of tables that are kept for later requests.
     #[arg(long, default_value_t = 256 << 20, value_name = "BYTES")]
     pub max_kept: usize,
     /// Open connections.

@@ -7,7 +7,7 @@ use crate::{
     http::{self, App, StartError},
 };
 
-/// Where and how the service answers.
+/// Options of the service.
 #[derive(Clone, Debug)]
 pub struct ServeOptions {
     /// Address and port.
@@ -20,7 +20,7 @@ pub struct ServeOptions {
     pub limits: ServeLimits,
 }
 
-/// Why the service did not start, or ended before it was asked to.
+/// The reason why the service did not start, or ended before a signal.
 #[derive(Debug, thiserror::Error)]
 pub enum ServeError {
     /// It cannot start.

@@ -32,7 +32,7 @@ struct FlightEntry<T, E> {
     result: watch::Receiver<Option<Result<T, E>>>,
     cancel: Arc<AtomicBool>,
     subscribers: usize,
-    /// Whether a client was told to come back for the value.
+    /// True if a client was told to come back for the value.
     is_promised: bool,
     /// Weight of the value, once it is there.
     weight: usize,

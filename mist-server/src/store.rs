@@ -1,4 +1,4 @@
-//! What outlives the service: materials and jobs, in one file, or in memory.
+//! The store of materials and jobs: one file that outlives the service, or memory.
 //!
 //! Every change is one transaction: after a crash the file has what was there before it or what
 //! was there after it.
@@ -62,7 +62,7 @@ impl From<StoreError> for io::Error {
 }
 
 impl StoreError {
-    /// Whether the database has to be opened again before it goes on.
+    /// True if the database must be opened again before it can be used.
     fn is_final(&self) -> bool {
         use redb::Error::{DatabaseClosed, Io, LockPoisoned, PreviousIo};
         matches!(*self.0, Io(_) | PreviousIo | DatabaseClosed | LockPoisoned(_))

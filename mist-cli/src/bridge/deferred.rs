@@ -9,7 +9,11 @@ use rise_bridge::{
 };
 use spectra::{ColourPlan, Grid};
 
-use super::{BridgeArgs, LAMBDA, render, save, save_image};
+use super::{
+    args::{BridgeArgs, LAMBDA},
+    files::{save, save_image},
+    render,
+};
 use crate::{
     error::CommandError,
     input::InputText,
@@ -18,7 +22,7 @@ use crate::{
     preview,
 };
 
-/// Writes the scenes, and the pictures if their renders are there or wanted.
+/// Writes the scenes, and the pictures if their renders are there or asked for.
 pub(super) fn deferred(args: &BridgeArgs, source: &InputText) -> Result<(), CommandError> {
     let filter = preview::filter(&args.filter)?;
     let lit = args.lit()?;

@@ -37,7 +37,7 @@ pub(super) fn seen(path: &Path) -> Result<Image, String> {
 
 /// The environment variable that names the program.
 const VARIABLE: &str = "RISE_BIN";
-/// Messages of RISE when it continues after an error.
+/// The words that RISE prints when it goes on without something.
 const FAILURES: [&str; 7] = [
     "derive diagnostic",
     "DataDrivenBSDF::",

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use scattering::{Class, Family};
 
-use super::{kind, title};
+use super::names::{kind, title};
 
 const INTRODUCTION: &str = "\
 <!-- Made by `mist models --markdown`; a test compares. Edit the SPEC of a class instead. -->

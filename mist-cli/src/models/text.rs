@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use scattering::{Class, Family};
 
-use super::{kind, title};
+use super::names::{kind, title};
 
 /// All classes, by family, with one line each.
 pub(super) fn list() -> String {

@@ -132,9 +132,9 @@ async fn prepared(
     if let Some(found) = app.lobes.get(&key) {
         return Ok(found);
     }
-    let asked = MaterialQuery::of(uri)?;
-    let out = LobeOutput::parse(asked.out().unwrap_or("rgb"))?;
-    let view = asked.view(&app.limits)?;
+    let query = MaterialQuery::of(uri)?;
+    let out = LobeOutput::parse(query.out().unwrap_or("rgb"))?;
+    let view = query.view(&app.limits)?;
     let made = app.compute_in_time(move || Lobes::new(&kept.prepared, &view)).await??;
     made.check(out)?;
     Ok(app.lobes.insert(key, PreparedLobes { lobes: made, out }))

@@ -1,10 +1,10 @@
-//! Whether the service is there, and whether it should be sent work.
+//! Liveness and readiness of the service.
 
 use axum::extract::State;
 
 use super::{error::ApiError, problem::Problems, state::App};
 
-/// Whether the process answers.
+/// Liveness: the process answers.
 #[utoipa::path(
     get,
     path = "/healthz",
@@ -15,7 +15,7 @@ pub(super) async fn healthz() -> &'static str {
     "ok\n"
 }
 
-/// Whether the service takes work: it is not stopping, and what it keeps can be read.
+/// Readiness: the service is not stopping, and its store can be read.
 #[utoipa::path(
     get,
     path = "/readyz",

@@ -111,16 +111,16 @@ fn rows(body: String) -> Result<String, ApiError> {
 pub(super) async fn integrate(
     State(app): State<App>,
     PathParameters(name): PathParameters<String>,
-    asked: MaterialQuery,
+    query: MaterialQuery,
     accept: Accept,
     BodyText(body): BodyText,
 ) -> Result<Response, ApiError> {
-    let out = LobeOutput::parse(asked.out().unwrap_or("rgb"))?;
+    let out = LobeOutput::parse(query.out().unwrap_or("rgb"))?;
     let kept = app.materials.find(&name)?;
-    let mut request = asked.wanted_at(rows(body)?).request(&name, None)?;
+    let mut request = query.table_at(rows(body)?).request(&name, None)?;
     admit(&request, &app.limits)?;
     request.limits = app.limits.engine(app.limits.max_time);
-    request.stokes |= asked.component() > 0;
+    request.stokes |= query.component() > 0;
     let json = accept == Accept::Json;
     let values = if out == LobeOutput::Mueller { 16.0 } else { 1.0 };
     let held = app.memory.reserve(values * memory_of(&request))?;
@@ -128,7 +128,7 @@ pub(super) async fn integrate(
     let control = cancel.control();
     let work = move || {
         let _held = held;
-        answer(&kept, &request, &asked, &control, (out, json))
+        answer(&kept, &request, &query, &control, (out, json))
     };
     let text = app.compute_in_time(work).await??;
     let kind = if json { "application/json" } else { "text/plain; charset=utf-8" };
@@ -139,11 +139,11 @@ pub(super) async fn integrate(
 fn answer(
     kept: &StoredMaterial,
     request: &TableRequest,
-    asked: &MaterialQuery,
+    query: &MaterialQuery,
     control: &Control,
     (out, json): (LobeOutput, bool),
 ) -> Result<String, ApiError> {
-    let style = asked.style();
+    let style = query.style();
     let text = match (out, json) {
         (LobeOutput::Mueller, _) => {
             let rows = table::mueller(&kept.prepared, request, control)?;
@@ -156,9 +156,9 @@ fn answer(
         (LobeOutput::Spectral, _) => {
             let table = table::table(&kept.prepared, request, control)?;
             if json {
-                write::spectra_json(&table, asked.component())
+                write::spectra_json(&table, query.component())
             } else {
-                write::mspd(&table, asked.component(), style)
+                write::mspd(&table, query.component(), style)
             }
         }
         (LobeOutput::Rgb, json) => {

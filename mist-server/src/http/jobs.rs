@@ -26,7 +26,7 @@ use super::{
     state::App,
 };
 use crate::{
-    jobs::{Job, JobState},
+    jobs::{JobState, ServiceJob},
     program::{ProgramError, ProgramRequest},
 };
 
@@ -110,7 +110,7 @@ pub(super) async fn list(State(app): State<App>) -> Json<Vec<JobDocument>> {
     Json(app.jobs.list().into_iter().map(JobDocument::from).collect())
 }
 
-/// Where a job stands.
+/// The status of a job.
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}",
@@ -147,7 +147,7 @@ pub(super) async fn cancel(
     Ok((code, Json(status.into())))
 }
 
-/// Where a job stands, and every change until it is over or the service stops, as server-sent
+/// The status of a job, and every change until it is over or the service stops, as server-sent
 /// events `status`.
 #[utoipa::path(
     get,
@@ -268,7 +268,11 @@ pub(super) async fn table(
 }
 
 /// A text of a job that is done.
-async fn text(app: &App, job: Arc<Job>, kind: impl Into<String>) -> Result<String, ApiError> {
+async fn text(
+    app: &App,
+    job: Arc<ServiceJob>,
+    kind: impl Into<String>,
+) -> Result<String, ApiError> {
     let status = job.status();
     match status.state {
         JobState::Done => {}

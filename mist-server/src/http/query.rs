@@ -1,4 +1,4 @@
-//! What the query of a URL asks for; angles in degrees, wavelengths in nm.
+//! The query of a table's URL; angles in degrees, wavelengths in nm.
 
 use axum::{
     extract::FromRequestParts,
@@ -120,9 +120,9 @@ impl MaterialQuery {
     }
 
     /// The table of the grid or of the patches in the query.
-    pub(super) fn wanted(&self) -> Result<TableQuery, ApiError> {
+    pub(super) fn table(&self) -> Result<TableQuery, ApiError> {
         if let Some(patches) = &self.patches {
-            return Ok(self.wanted_at(patches.replace(';', "\n")));
+            return Ok(self.table_at(patches.replace(';', "\n")));
         }
         let axes = [("thetai", &self.thetai), ("thetas", &self.thetas), ("phis", &self.phis)];
         let axes: Vec<String> = axes
@@ -133,28 +133,28 @@ impl MaterialQuery {
             let message = "the query names a grid by thetai, thetas and phis, or patches";
             return Err(ApiError::Query(message.into()));
         }
-        Ok(TableQuery { grid: Some(axes.join(",")), ..self.everything_but_directions() })
+        Ok(TableQuery { grid: Some(axes.join(",")), ..self.without_directions() })
     }
 
     /// The table of the patches in `rows`, one per line.
-    pub(super) fn wanted_at(&self, rows: String) -> TableQuery {
-        TableQuery { patches: Some(rows), ..self.everything_but_directions() }
+    pub(super) fn table_at(&self, rows: String) -> TableQuery {
+        TableQuery { patches: Some(rows), ..self.without_directions() }
     }
 
     /// The same for single directions.
     pub(super) fn view(&self, limits: &ServeLimits) -> Result<LobeRequest, ApiError> {
-        let mut wanted = self.everything_but_directions();
-        let turn = renderer::turn(wanted.basis.as_deref());
+        let mut table = self.without_directions();
+        let turn = renderer::turn(table.basis.as_deref());
         if turn.is_some() {
-            wanted.basis = None;
+            table.basis = None;
         }
-        let request = wanted.without_directions("")?;
+        let request = table.without_directions("")?;
         admit(&request, limits)?;
         let TableRequest { wavelengths, settings, incident, basis, .. } = request;
         Ok(LobeRequest { wavelengths, settings, incident, basis, turn })
     }
 
-    fn everything_but_directions(&self) -> TableQuery {
+    fn without_directions(&self) -> TableQuery {
         TableQuery {
             grid: None,
             patches: None,

@@ -3,7 +3,7 @@
 use mist_engine::material::lobes::BasisChange;
 use rise_bridge::mitsuba::frame;
 
-/// What takes a matrix in `psps` to the basis called `name`, if it is that of a renderer.
+/// The change from `psps` to the basis called `name`, if it is that of a renderer.
 pub(super) fn turn(name: Option<&str>) -> Option<BasisChange> {
     match name {
         Some("mitsuba") => Some(frame::from_psps),

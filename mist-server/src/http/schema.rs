@@ -1,6 +1,6 @@
 //! The JSON of requests and answers that other crates define, as the API describes it.
 //!
-//! The types marked so are read by nobody: they are what `/openapi.json` says.
+//! Types that are marked so are not read: they only describe the API in `/openapi.json`.
 
 use std::collections::BTreeMap;
 
@@ -76,7 +76,7 @@ pub(super) struct EvalRequest {
     #[schema(example = "psps")]
     basis: Option<String>,
     /// Directions at which the model is evaluated.
-    geometries: Vec<GeometryAngles>,
+    geometries: Vec<EvaluationAngles>,
     /// Texts of data files by the names that parameters give them.
     files: Option<BTreeMap<String, String>>,
 }
@@ -85,7 +85,7 @@ pub(super) struct EvalRequest {
 #[derive(Deserialize, ToSchema)]
 #[schema(as = Angles)]
 #[expect(dead_code, reason = "describes the API")]
-pub(super) struct GeometryAngles {
+pub(super) struct EvaluationAngles {
     /// Polar angle of incidence.
     #[schema(example = 0.5)]
     theta_i: f64,

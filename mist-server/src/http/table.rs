@@ -92,20 +92,20 @@ async fn colours(
     (format, writer): (&'static FileFormat, ColourWriter),
     (headers, uri): (&HeaderMap, &Uri),
 ) -> Result<Response, ApiError> {
-    let asked = MaterialQuery::of(uri)?;
+    let query = MaterialQuery::of(uri)?;
     let kept = app.materials.find(name)?;
-    let content = (name, &kept.hash, format.name, asked.content());
-    let file = FileRequest::new(&content, format.media_type, asked.wait(), (headers, uri))?;
+    let content = (name, &kept.hash, format.name, query.content());
+    let file = FileRequest::new(&content, format.media_type, query.wait(), (headers, uri))?;
     if let Some(answer) = file.not_modified() {
         return Ok(answer);
     }
-    let mut request = asked.wanted()?.request(name, None)?;
+    let mut request = query.table()?.request(name, None)?;
     admit(&request, &app.limits)?;
     request.limits = app.limits.engine(app.limits.max_time);
     let bytes = memory_of(&request);
     let work = move |control: &mist_engine::Control| {
         let table = table::table(&kept.prepared, &request, control)?;
-        let text = (writer.text)(&table, asked.component(), asked.style())
+        let text = (writer.text)(&table, query.component(), query.style())
             .map_err(|error| MaterialError::NotFinite(error.to_string()))?;
         Ok(Bytes::from(text))
     };

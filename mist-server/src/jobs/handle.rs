@@ -4,7 +4,7 @@ use std::sync::{Arc, atomic::Ordering};
 
 use super::{
     error::JobsError,
-    job::{Job, json},
+    job::{ServiceJob, json},
     scheduler::Scheduler,
     status::{JobState, JobStatus},
     worker,
@@ -91,14 +91,14 @@ impl Jobs {
     }
 
     /// The job with this id.
-    pub(crate) fn find(&self, id: &str) -> Result<Arc<Job>, JobsError> {
+    pub(crate) fn find(&self, id: &str) -> Result<Arc<ServiceJob>, JobsError> {
         let found = self.0.queue().jobs.get(id).cloned();
         found.ok_or_else(|| JobsError::Unknown(id.to_owned()))
     }
 
     /// The status of every job, the oldest first.
     pub(crate) fn list(&self) -> Vec<JobStatus> {
-        let mut jobs: Vec<Arc<Job>> = self.0.queue().jobs.values().cloned().collect();
+        let mut jobs: Vec<Arc<ServiceJob>> = self.0.queue().jobs.values().cloned().collect();
         jobs.sort_by_key(|job| job.number);
         jobs.iter().map(|job| job.status()).collect()
     }
@@ -113,7 +113,7 @@ impl Jobs {
     }
 
     /// A text of a job that is over.
-    pub(crate) fn text(&self, job: &Job, kind: &str) -> Result<Option<String>, StoreError> {
+    pub(crate) fn text(&self, job: &ServiceJob, kind: &str) -> Result<Option<String>, StoreError> {
         self.0.store.text(&job.id, kind)
     }
 
@@ -122,7 +122,7 @@ impl Jobs {
     /// # Errors
     ///
     /// If the change cannot be stored.
-    pub(crate) fn cancel(&self, job: &Arc<Job>) -> Result<JobStatus, JobsError> {
+    pub(crate) fn cancel(&self, job: &Arc<ServiceJob>) -> Result<JobStatus, JobsError> {
         if job.status().state.is_over() {
             self.0.store.remove_job(&job.id)?;
             self.0.queue().remove(&job.id);

@@ -12,7 +12,7 @@ use super::status::JobStatus;
 use crate::output::BoundedOutput;
 
 /// One job.
-pub(crate) struct Job {
+pub(crate) struct ServiceJob {
     /// Name in addresses.
     pub(crate) id: String,
     pub(super) number: u64,
@@ -35,7 +35,7 @@ pub(super) struct JobRecord {
     pub(super) status: JobStatus,
 }
 
-impl Job {
+impl ServiceJob {
     pub(super) fn new(record: JobRecord) -> Self {
         Self {
             id: record.status.id.clone(),

@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     error::JobsError,
-    job::{Job, JobRecord},
+    job::{JobRecord, ServiceJob},
     status::{JobState, JobStatus},
 };
 use crate::limits::{LimitReached, ServeLimits};
@@ -15,9 +15,9 @@ use crate::limits::{LimitReached, ServeLimits};
 /// All jobs of the service.
 #[derive(Default)]
 pub(super) struct JobQueue {
-    pub(super) jobs: BTreeMap<String, Arc<Job>>,
+    pub(super) jobs: BTreeMap<String, Arc<ServiceJob>>,
     /// Jobs that wait, in the order in which they run.
-    pub(super) waiting: VecDeque<Arc<Job>>,
+    pub(super) waiting: VecDeque<Arc<ServiceJob>>,
     /// Jobs that are over, the oldest first.
     pub(super) over: VecDeque<String>,
     /// Bytes of the programs and texts of all jobs.
@@ -36,7 +36,7 @@ impl JobQueue {
         if !over {
             record.status.state = JobState::Queued;
         }
-        let job = Arc::new(Job::new(record));
+        let job = Arc::new(ServiceJob::new(record));
         self.jobs.insert(job.id.clone(), job.clone());
         if over {
             self.over.push_back(job.id.clone());
@@ -46,11 +46,11 @@ impl JobQueue {
     }
 
     /// Adds a new job; it counts from now on but does not wait yet.
-    pub(super) fn add(&mut self, client: String, bytes: u64, status: JobStatus) -> Arc<Job> {
+    pub(super) fn add(&mut self, client: String, bytes: u64, status: JobStatus) -> Arc<ServiceJob> {
         let record = JobRecord { number: self.next, client, bytes, status };
         self.next += 1;
         self.stored += bytes;
-        let job = Arc::new(Job::new(record));
+        let job = Arc::new(ServiceJob::new(record));
         self.jobs.insert(job.id.clone(), job.clone());
         job
     }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, atomic::Ordering};
 use tokio::sync::watch;
 
 use super::{
-    job::{Job, JobRecord},
+    job::{JobRecord, ServiceJob},
     queue::JobQueue,
     status::{JobState, JobStatus},
 };
@@ -63,13 +63,13 @@ impl Scheduler {
     }
 
     /// Appends a job to those that wait.
-    pub(super) fn enqueue(&self, job: Arc<Job>) {
+    pub(super) fn enqueue(&self, job: Arc<ServiceJob>) {
         self.queue().waiting.push_back(job);
         self.changed.notify_one();
     }
 
     /// The next job to run; none when the service stops.
-    pub(super) fn next(&self) -> Option<Arc<Job>> {
+    pub(super) fn next(&self) -> Option<Arc<ServiceJob>> {
         let mut queue = self.queue();
         loop {
             if queue.stopping {
@@ -86,7 +86,7 @@ impl Scheduler {
     /// Ends a job: its record and its texts are stored, then its followers are told.
     pub(super) fn finish(
         &self,
-        job: &Job,
+        job: &ServiceJob,
         state: JobState,
         change: impl FnOnce(&mut JobStatus),
         texts: &[(String, String)],
@@ -107,7 +107,7 @@ impl Scheduler {
     }
 
     /// Counts a job that is over, and removes the oldest of too many.
-    pub(super) fn retire(&self, job: &Job) {
+    pub(super) fn retire(&self, job: &ServiceJob) {
         if !job.status.borrow().state.is_over() {
             return;
         }

@@ -9,7 +9,7 @@ use mist_engine::{Control, Failure, OutputStream, RunSummary, Sink, compile};
 use rise_bridge::{formats, write::Style};
 
 use super::{
-    job::Job,
+    job::ServiceJob,
     scheduler::Scheduler,
     status::{JobState, JobStatus},
     step_journal::StepJournal,
@@ -21,7 +21,7 @@ use crate::{
 };
 
 /// Runs `job` to its end, or until the service stops.
-pub(super) fn run(scheduler: &Scheduler, job: &Job) {
+pub(super) fn run(scheduler: &Scheduler, job: &ServiceJob) {
     let body = match program(scheduler, job) {
         Ok(body) => body,
         Err(error) => {
@@ -56,14 +56,14 @@ pub(super) fn run(scheduler: &Scheduler, job: &Job) {
 }
 
 /// The program of a job, which only the store has while it waits.
-fn program(scheduler: &Scheduler, job: &Job) -> io::Result<ProgramRequest> {
+fn program(scheduler: &Scheduler, job: &ServiceJob) -> io::Result<ProgramRequest> {
     let text = scheduler.store.program(&job.id)?;
     let text = text.ok_or_else(|| io::Error::other("the program of the job is not kept"))?;
     Ok(serde_json::from_str(&text)?)
 }
 
 /// The sink of a job; clients may read its output while the job runs.
-struct LiveOutput<'a>(&'a Job);
+struct LiveOutput<'a>(&'a ServiceJob);
 
 impl Sink for LiveOutput<'_> {
     fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()> {
@@ -71,7 +71,7 @@ impl Sink for LiveOutput<'_> {
     }
 }
 
-fn attempt(scheduler: &Scheduler, job: &Job, body: &ProgramRequest) -> Result<(), Failure> {
+fn attempt(scheduler: &Scheduler, job: &ServiceJob, body: &ProgramRequest) -> Result<(), Failure> {
     let limits = &scheduler.limits;
     let options = body.options(limits.engine(limits.max_job_time));
     let compiled = compile(&body.program, body.files(), &options).map_err(Failure::Program)?;
@@ -108,7 +108,7 @@ fn attempt(scheduler: &Scheduler, job: &Job, body: &ProgramRequest) -> Result<()
 }
 
 /// The texts of a finished run by their names.
-fn texts(job: &Job, summary: &RunSummary) -> Result<Vec<(String, String)>, Failure> {
+fn texts(job: &ServiceJob, summary: &RunSummary) -> Result<Vec<(String, String)>, Failure> {
     let output = job.output.lock().unwrap_or_else(PoisonError::into_inner).clone();
     let mut texts =
         vec![("results".to_owned(), output.results), ("listing".to_owned(), output.listing)];

@@ -12,7 +12,7 @@ use tower::ServiceExt;
 pub(crate) const GLASS: &str =
     r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","sdf.s":0.3}}"#;
 
-/// What came back.
+/// The answer.
 pub(crate) struct Answer {
     pub(crate) status: StatusCode,
     pub(crate) headers: HeaderMap,

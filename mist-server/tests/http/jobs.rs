@@ -25,7 +25,7 @@ fn body() -> Value {
     json!({"program": PROGRAM, "files": {"r.txt": WHITE}})
 }
 
-/// What the engine gives for the program.
+/// The results of the engine for the program.
 fn expected() -> MemorySink {
     let files = MemoryFiles([("r.txt".to_owned(), WHITE.into())].into());
     let job = compile(PROGRAM, std::sync::Arc::new(files), &Options::default())

@@ -7,4 +7,5 @@ mod jobs;
 mod models;
 mod openapi;
 mod safety;
+mod stored;
 mod tables;

@@ -1,4 +1,4 @@
-//! What the service refuses: without a key, beyond its limits, outside of what was sent.
+//! Refusals of the service: without a key, beyond its limits, outside of what was sent.
 
 use axum::http::{Method, StatusCode};
 use mist_server::{ServeLimits, http::App};

@@ -28,7 +28,7 @@ pub struct ExportRequest {
     pub filter: Option<String>,
     /// True if the material computes NIST's numbers, for the description inside the table.
     pub compat: bool,
-    /// True if the grid `auto:PERCENT` is allowed, and the error of interpolation is estimated.
+    /// Allows the grid `auto:PERCENT`, and estimates the error of interpolation.
     pub estimate_error: bool,
     /// Most bytes of a table, if it is made in memory.
     pub max_bytes: Option<f64>,
