@@ -24,7 +24,7 @@ pub enum Defect {
     MicroroughnessBranch,
     /// Facets turn nothing where the local angle of incidence is exactly 0.
     FacetRetro,
-    /// Reynolds–McCormick phase functions use g² in the place of g in their norm.
+    /// Reynolds–McCormick phase functions use g² in place of g in their norm.
     ReynoldsNorm,
     /// Rayleigh and Legendre phase functions lack 1/4π.
     PhaseNorm,
@@ -42,7 +42,7 @@ pub enum Defect {
     KubelkaOverflow,
     /// An index is read up to where its text stops being a number, and loses its first dots.
     ///
-    /// Noted by who reads the text.
+    /// Noted by the code that reads the text.
     IndexText,
     /// Sums over `Diffuse_Subsurface` sources fail for absorbing substrates.
     SumAbsorbing,
@@ -56,7 +56,7 @@ pub enum Defect {
     RecyclingSum,
     /// Cones and the hemisphere are polygons that leave out directions at the horizon.
     ///
-    /// Noted by who integrates.
+    /// Noted by the integrator.
     PolygonHorizon,
     /// Axisymmetric particles with mmax < lmax pair harmonics wrongly.
     AxisymmetricIndex,

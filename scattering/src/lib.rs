@@ -1,7 +1,7 @@
 //! Polarized scattering models: from the parameters of a material to Mueller matrices.
 //!
 //! A model is chosen by name from [`models`], built from a [`ParameterNode`] of typed parameter values,
-//! and asked for the 4×4 Mueller BRDF (1/sr) of one incident beam and many directions:
+//! and gives the 4×4 Mueller BRDF (1/sr) of one incident beam and many directions:
 //!
 //! ```
 //! use scattering::{Basis, Geometry, Mode, Node, models};

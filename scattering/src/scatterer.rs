@@ -54,7 +54,7 @@ pub trait SphericalScatterer: Send + Sync {
     /// Position.
     fn surroundings(&self) -> &HostMedium;
 
-    /// Amplitude matrix at the cosine of the scattering angle, ∥ in the place of s and ⊥ in that
+    /// Amplitude matrix at the cosine of the scattering angle, ∥ in place of s and ⊥ in that
     /// of p: `ss` = S2, `pp` = S1, `ps` = S3, `sp` = S4.
     fn amplitudes(&self, cos: f64) -> Jones;
 

@@ -103,7 +103,7 @@ impl Shape {
         self
     }
 
-    /// The same scaled to `volume` µm³ if the parameter `renorm` asks for it.
+    /// The same scaled to `volume` µm³ if the parameter `renorm` requests it.
     pub(crate) fn renormalized(self, params: &ParameterNode, volume: impl FnOnce() -> f64) -> Self {
         if params.integer("renorm") == 0 {
             return self;
@@ -184,7 +184,7 @@ mod tests {
                 _ => vec![],
             };
             let shape = build(spec.class.name, &values).unwrap();
-            // Closed outlines come back to where they left: ∫ r' dθ = r(π) − r(0), here from the
+            // Closed outlines return to their start: ∫ r' dθ = r(π) − r(0), here from the
             // neighbours of the poles, and each step follows its slope up to curvature.
             for pair in shape.nodes().windows(2) {
                 let step = pair[1].theta - pair[0].theta;

@@ -219,7 +219,7 @@ impl Parameter {
     }
 }
 
-/// The laws a class claims; one contract test per law asks every class that claims it.
+/// The laws that a class obeys; one contract test per law checks every such class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Laws {
     /// M(θ_s, θ_i, −φ; r+π−φ) = P·M(θ_i, θ_s, φ; r)ᵀ·P with P = diag(1, 1, −1, 1).

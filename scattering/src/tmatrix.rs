@@ -63,7 +63,7 @@ impl TMatrix {
     }
 }
 
-/// The largest l that the parameter `lmax` asks for where the size needs `needed`.
+/// The largest l that the parameter `lmax` requests if the size needs `needed`.
 pub(crate) fn l_max(node: &ParameterNode, needed: usize) -> Result<usize, ParameterError> {
     let asked = i64::from(node.integer("lmax"));
     let l = if asked > 0 { asked } else { needed as i64 - asked };

@@ -1,4 +1,4 @@
-//! Models asked by vectors: where the light is, where the viewer is, how the surface lies.
+//! Evaluation of models for vectors towards the light and the viewer, in the frame of the surface.
 //!
 //! A renderer has directions, not the four angles of a goniometer. With n̂ the normal, x̂ the
 //! fiducial axis projected on the surface, v_s and v_v the unit vectors to the source and to the
@@ -120,7 +120,7 @@ impl Model {
     /// where `viewer` points.
     ///
     /// Zero where that light does not pass on the model's side (`type`), at grazing directions,
-    /// and for vectors without a direction. [`Mode::Compat`] asks as NIST's library does.
+    /// and for vectors without a direction. [`Mode::Compat`] evaluates like NIST's library.
     pub fn mueller_between(
         &self,
         surface: &Surface,

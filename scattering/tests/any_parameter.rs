@@ -12,7 +12,7 @@ use scattering::{
     stack::Film,
 };
 
-/// Numbers without rhyme or reason, the same in every run (splitmix64).
+/// Pseudorandom numbers, the same in every run (splitmix64).
 struct Dice(u64);
 
 impl Dice {

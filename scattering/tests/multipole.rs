@@ -1,5 +1,5 @@
 //! Spheres and bodies of revolution on a substrate: the tables of conformance programs, computed
-//! by NIST's library, and what the sound models do in the place of its defects.
+//! by NIST's library, and what the sound models do in place of its defects.
 
 use std::sync::Arc;
 

@@ -84,7 +84,7 @@ fn norm(g: f64, alpha: f64) -> f64 {
     0.25 * FRAC_1_PI * over(g, g.atanh()) * (1.0 - g * g).powf(alpha) * over(y, y.sinh())
 }
 
-/// K with g² in the place of g in the denominator.
+/// K with g² in place of g in the denominator.
 fn compat_norm(g: f64, alpha: f64) -> f64 {
     let (g2, twice) = (g * g, 2.0 * alpha);
     alpha * g / PI * (1.0 - g2).powf(twice) / ((1.0 + g2).powf(twice) - (1.0 - g2).powf(twice))

@@ -40,9 +40,9 @@ impl Basis {
 /// Two unit vectors across a beam; `first` takes the place of s, `second` that of p.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TransverseFrame {
-    /// The direction in the place of s.
+    /// The direction in place of s.
     pub first: DVec3,
-    /// The direction in the place of p.
+    /// The direction in place of p.
     pub second: DVec3,
 }
 

@@ -39,7 +39,7 @@ pub const SPEC: Spec<dyn Psd> = Spec {
     },
 };
 
-/// Square of the least frequency that is told from 0, 1/µm².
+/// Square of the smallest frequency that is distinguished from 0, 1/µm².
 const LEAST_SQUARED: f64 = 1e-12;
 /// Exponents beyond this are no surface's; their powers overflow.
 const STEEPEST: f64 = 30.0;

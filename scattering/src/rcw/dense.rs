@@ -64,7 +64,7 @@ pub(super) fn cayley(f: Complex64, mut m: ComplexMatrix) -> ComplexMatrix {
     inverse
 }
 
-/// Replaces every element, told whether it is on the diagonal.
+/// Replaces every element; the argument is true on the diagonal.
 fn change(m: &mut ComplexMatrix, of: impl Fn(Complex64, bool) -> Complex64) {
     for j in 0..m.ncols() {
         for (i, z) in m.col_as_slice_mut(j).iter_mut().enumerate() {

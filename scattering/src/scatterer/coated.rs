@@ -57,7 +57,7 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
     },
 };
 
-/// The number of terms that `nmax` asks for where the size needs `needed`.
+/// The number of terms that `nmax` requests if the size needs `needed`.
 fn terms(node: &ParameterNode, needed: usize) -> Result<usize, ParameterError> {
     /// Larger spheres than any that a series of this length describes are not built.
     const MOST: i64 = 1_000_000;

@@ -3,7 +3,7 @@
 //! The material has the indices m_L and m_R (relative to the medium) for left and right circular
 //! light; 1/m = ½(1/m_L + 1/m_R). With
 //! W(J) = mψ(m_J x)ζ'(x) − ζ(x)ψ'(m_J x), V(J) = ψ(m_J x)ζ'(x) − mζ(x)ψ'(m_J x) and A, B the same
-//! with ψ in the place of ζ,
+//! with ψ in place of ζ,
 //!
 //! $$ a_n = \frac{V_R A_L + V_L A_R}{D}, \quad b_n = \frac{W_L B_R + W_R B_L}{D}, \quad
 //!    c_n = i\,\frac{W_R A_L - W_L A_R}{D}, \quad D = W_L V_R + V_L W_R $$

@@ -65,7 +65,7 @@ mod tests {
             let x = 0.01 * f64::from(k) + 1e-4 * f64::from(k % 89);
             let [falling, scaled] = falling_and_scaled(x);
             let erfc = falling * scaled / (1.0 + 2.0 * x);
-            // The rounding of x² comes back as a relative error of x²·10⁻¹⁶.
+            // The rounding of x² becomes a relative error of x²·10⁻¹⁶.
             let tolerance = 6e-16 + 1.2e-16 * x * x;
             let expected = libm::erfc(x);
             assert!((erfc - expected).abs() <= tolerance * expected, "{x}: {erfc:e} {expected:e}");

@@ -37,7 +37,7 @@ pub(super) struct InterreflectionMatrix {
     pub(super) cc: f64,
 }
 
-/// Below this nothing comes back from the surface.
+/// Below this the surface returns no light.
 const NOTHING: f64 = 1e-12;
 
 impl InterreflectionMatrix {

@@ -56,7 +56,7 @@ impl InterfaceRay {
         Self { sin: at.sin, cos: at.cos, turn: (c * c - s * s, 2.0 * s * c) }
     }
 
-    /// The beam that comes back along `direction`, on the sample turned by r + π − φ.
+    /// The beam that returns along `direction`, on the sample turned by r + π − φ.
     pub(super) fn reversed(at: &Incidence, direction: &Direction) -> Self {
         let (c, s) = (
             at.cos_rotation * direction.cos_phi + at.sin_rotation * direction.sin_phi,

@@ -341,7 +341,7 @@ impl CoatLayer {
     }
 }
 
-/// ρ: the part of diffuse light from below all coats that comes back.
+/// ρ: the fraction of diffuse light from below all coats that returns.
 fn recycled(coats: &[CoatLayer], lambda: f64, media: Absorption) -> f64 {
     let Some(last) = coats.last() else { return 0.0 };
     // The integrand has kinks where light begins to be reflected totally.

@@ -43,7 +43,7 @@
 //! `printed` = 2 weights the flakes by e^{−τ} as well (equation 11), the part that they do not
 //! meet. `printed_surface` = 1 takes the facets of the surface as equations 4 to 6 print them, with
 //! the Jones matrix transposed: right in the plane of incidence, the reversed path outside of it.
-//! `printed_flakes` = 1 takes equation 8: the transposed Jones matrix, n² in the place of its η²,
+//! `printed_flakes` = 1 takes equation 8: the transposed Jones matrix, n² in place of its η²,
 //! (1 + ζ')² for (1 + ζ'²)²; brighter by n² and more. Energy is not kept in any of these.
 //!
 //! M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969); T. A. Germer and M. E. Nadal,
@@ -155,7 +155,7 @@ const OWN: &[Parameter] = &[
 /// a radius then.
 const INDEPENDENT: f64 = 0.1;
 
-/// Light lost between flakes that is told.
+/// Light lost between flakes above which a notice is given.
 const LOST: f64 = 0.05;
 
 /// Nodes of the integrals over the surface.

@@ -3,7 +3,7 @@
 //! $$ \mathbf e(\theta, r) = \int \mathbf F_{0\cdot}\cos\theta_s\,d\Omega_s
 //!    = \int \mathbf F_{0\cdot}\cos\theta_s\,4 c\,n_z^3\,d^2\zeta $$
 //!
-//! is a row: e · (I, Q, U, V) of the incident light is the power that comes back. c = −k_i·n̂. The
+//! is a row: e · (I, Q, U, V) of the incident light is the returned power. c = −k_i·n̂. The
 //! integral runs over the slopes ζ of the facets, where a lobe has one size at all angles; light
 //! goes up from facets within the disc |ζ|² + 2 tan θ ζ_i < 1 alone (ζ_i along the plane of
 //! incidence), so each ray from ζ = 0 has one end and the integrand is smooth on it.

@@ -79,12 +79,12 @@ pub(super) struct OrderConeModel {
     recent: Mutex<Vec<CachedOrders>>,
 }
 
-/// Beams whose orders are kept; a run asks for a few beams many times.
+/// Number of beams whose orders are cached; a run uses a few beams many times.
 const KEPT: usize = 32;
 
 type SharedOrders = Arc<OnceLock<Vec<OrderCone>>>;
 
-/// The orders of one beam, worked out by whoever asks first.
+/// The orders of one beam, computed at the first use.
 struct CachedOrders {
     theta: f64,
     rotation: f64,

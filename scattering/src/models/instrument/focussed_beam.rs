@@ -8,7 +8,7 @@
 //! tilted by `focal_point` times its own tilt: 0 for a beam focussed on the sample, 1 for one
 //! focussed on the detector. Rays and views below the horizon count as dark.
 //!
-//! NIST's library mirrors the azimuth of every ray before it asks the model, so that the elements
+//! NIST's library mirrors the azimuth of every ray before it evaluates the model, so that the elements
 //! that mix I and Q with U and V have the opposite sign of those of a parallel beam
 //! ([`Defect::FocussedMirror`]); a ray along the normal is NaN in it.
 //!

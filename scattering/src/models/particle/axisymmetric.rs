@@ -2,7 +2,7 @@
 //! against its face.
 //!
 //! As [`bobbert_vlieger`](super::bobbert_vlieger), with the [T-matrix](crate::tmatrix) of the body
-//! in the place of the Mie coefficients. The body rests on its lowest node, `delta` over the face;
+//! in place of the Mie coefficients. The body rests on its lowest node, `delta` over the face;
 //! `lmax` = 0 stands for ⌊x + 4.05x^{0.3333} + 2⌋, x that of the farthest node.
 //!
 //! P. C. Waterman, Phys. Rev. D 3, 825 (1971); P. A. Bobbert and J. Vlieger, Physica A 137, 209

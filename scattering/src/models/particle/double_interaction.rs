@@ -13,7 +13,7 @@
 //!
 //! where a = n sin θ_i and b = n sin θ_s are the sines outside and c their cosines; light that the
 //! face reflects totally does not reach the particle. F = N M(J)/(cos θ_i cos θ_s). The particle's
-//! own light that comes back to it is left out.
+//! own light that returns to it is neglected.
 //!
 //! K. B. Nahm and W. L. Wolfe, Appl. Opt. 26, 2995 (1987).
 

@@ -6,7 +6,7 @@
 //! $$ C = r^3 \frac{\varepsilon_p - \varepsilon_m}{\varepsilon_p + 2\varepsilon_m}
 //!        \left(\frac{2\pi}{\lambda}\right)^2 \varepsilon_m, \quad \varepsilon = \varepsilon_m $$
 //!
-//! The sphere does not see its own light come back from the interfaces.
+//! The sphere's own light that the interfaces return to it is neglected.
 //!
 //! T. A. Germer, *Polarized light scattering by microroughness and small defects in dielectric
 //! layers*, J. Opt. Soc. Am. A 18, 1279 (2001).

@@ -11,7 +11,7 @@
 //! | 2 | all four paths |
 //! | 3 | t21(θ_s) (cos θ_s/c_s' n^{−3/2}) [S(k_i,k_s') + S(k_i^r,k_s') r21(θ_i)] |
 //!
-//! F = N M(J)/(cos θ_i cos θ_s). The particle's own light that comes back to it is left out, as is
+//! F = N M(J)/(cos θ_i cos θ_s). The particle's own light that returns to it is neglected, as is
 //! the light of other particles. The surroundings of `scatterer` have to be those of the model.
 //!
 //! T. A. Germer, *Polarized light scattering by microroughness and small defects in dielectric

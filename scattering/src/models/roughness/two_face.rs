@@ -4,7 +4,7 @@
 //!
 //! m = 0 for the buried face (`face` = 1), m = 1 for the exposed one (`face` = 2); J_m is the
 //! first-order amplitude of that interface (`interfaces.rs`). The polarization of the scattered
-//! light tells the two apart.
+//! light distinguishes the two.
 //!
 //! T. A. Germer, *Measurement of roughness of two interfaces of a dielectric film by scattering
 //! ellipsometry*, Phys. Rev. Lett. 85, 349 (2000).

@@ -1,6 +1,6 @@
 //! Response of a particle together with its image in the face of the substrate.
 //!
-//! Outgoing multipoles w come back from the face as regular ones **A** w,
+//! The face reflects outgoing multipoles w as regular ones **A** w,
 //!
 //! $$ A^{e'e} = K \int_0^\infty e^{-x} (r_p \tau \tau' + r_s \mu\mu') dx, \qquad
 //!    A^{h'e} = -iK \int_0^\infty e^{-x} (r_p \tau\mu' + r_s \mu\tau') dx $$
