@@ -22,7 +22,9 @@ use mist_tests::sources::{
 enum Outside {
     /// The file system.
     Files,
-    /// Arguments, standard streams, colours and progress bars.
+    /// Arguments of the command line; the limits of the service are flags.
+    Arguments,
+    /// Standard streams, colours and progress bars.
     Terminals,
     /// Network connections and what speaks over them.
     Sockets,
@@ -30,7 +32,7 @@ enum Outside {
     Threads,
 }
 
-use Outside::{Files, Sockets, Terminals, Threads};
+use Outside::{Arguments, Files, Sockets, Terminals, Threads};
 
 /// Dependencies that one crate may have.
 struct Rule {
@@ -43,7 +45,7 @@ struct Rule {
 /// Every crate of the workspace. A crate without a row fails `every_crate_has_a_rule`.
 const RULES: &[Rule] = &[
     Rule { package: "spectra", uses: &[], knows: &[] },
-    Rule { package: "scattering", uses: &["spectra"], knows: &[] },
+    Rule { package: "scattering", uses: &[], knows: &[] },
     Rule { package: "mist-format", uses: &[], knows: &[] },
     Rule { package: "mist-engine", uses: &["mist-format", "scattering", "spectra"], knows: &[] },
     Rule { package: "pictures", uses: &["spectra"], knows: &[] },
@@ -59,7 +61,7 @@ const RULES: &[Rule] = &[
     },
     Rule {
         package: "mist-runner",
-        uses: &["mist-engine", "mist-format", "rise-bridge", "scattering", "spectra"],
+        uses: &["mist-engine", "mist-format", "rise-bridge", "scattering"],
         knows: &[Files],
     },
     Rule {
@@ -72,7 +74,7 @@ const RULES: &[Rule] = &[
             "scattering",
             "spectra",
         ],
-        knows: &[Files, Terminals, Sockets, Threads],
+        knows: &[Files, Arguments, Sockets, Threads],
     },
     Rule {
         package: "mist-cli",
@@ -87,19 +89,20 @@ const RULES: &[Rule] = &[
             "scattering",
             "spectra",
         ],
-        knows: &[Files, Terminals, Sockets, Threads],
+        knows: &[Files, Arguments, Terminals, Sockets, Threads],
     },
     Rule { package: "tests", uses: &["mist-engine", "mist-format", "scattering"], knows: &[Files] },
 ];
 
 impl Outside {
-    const ALL: [Self; 4] = [Files, Terminals, Sockets, Threads];
+    const ALL: [Self; 5] = [Files, Arguments, Terminals, Sockets, Threads];
 
     /// Crates that are for this only.
     fn dependencies(self) -> &'static [&'static str] {
         match self {
             Files => &["tempfile", "redb"],
-            Terminals => &["clap", "indicatif", "annotate-snippets"],
+            Arguments => &["clap"],
+            Terminals => &["indicatif", "annotate-snippets"],
             Sockets => &["axum", "hyper", "hyper-util", "tokio", "tower-http"],
             Threads => &[],
         }
@@ -109,7 +112,8 @@ impl Outside {
     fn paths(self) -> &'static [&'static str] {
         match self {
             Files => &["std::fs", "fs::", "File::open", "File::create", "OpenOptions"],
-            Terminals => &["std::io::IsTerminal", "std::env::args"],
+            Arguments => &["std::env::args"],
+            Terminals => &["std::io::IsTerminal"],
             Sockets => &["std::net", "std::os::unix::net"],
             Threads => &["thread::spawn", "thread::scope", "thread::Builder", "ThreadPoolBuilder"],
         }
