@@ -16,7 +16,7 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 
 use mist_format::Diagnostic;
 use scattering::spec::SharedNotices;
@@ -25,6 +25,7 @@ use crate::{
     Job,
     fault::Fault,
     output::{Outputs, TableLine},
+    parameters::ModelParameters,
     region::Region,
     replay::Replay,
     step::{Evaluated, Step},
@@ -59,8 +60,8 @@ struct Rehearsal<'j> {
     job: &'j Job,
     readings: Vec<Reading<'j>>,
     apertures: Apertures<'j>,
-    /// Fingerprints of the models that were built.
-    models: BTreeSet<crate::parameters::Fingerprint>,
+    /// Parameters of the models that were built.
+    models: HashSet<ModelParameters>,
     steps: u64,
     /// How far the steps went.
     fraction: f64,
@@ -71,7 +72,7 @@ impl<'j> Rehearsal<'j> {
     fn new(job: &'j Job) -> Self {
         let mut readings = angles::readings(job);
         readings.extend(wavelength::readings(job));
-        let (apertures, models) = (Apertures::new(job), BTreeSet::new());
+        let (apertures, models) = (Apertures::new(job), HashSet::new());
         Self { job, readings, apertures, models, steps: 0, fraction: 0.0, is_whole: false }
     }
 
@@ -84,11 +85,13 @@ impl<'j> Rehearsal<'j> {
                 self.is_whole = true;
                 return Ok(());
             };
-            self.readings.iter_mut().for_each(|reading| reading.see(&mut replay.scope));
+            self.readings
+                .iter_mut()
+                .for_each(|reading| reading.see(replay.values_mut().slots_mut()));
             self.fraction = step.fraction;
             self.see(&step).map_err(|fault| self.in_step(fault))?;
             self.steps += 1;
-            if self.job.in_order {
+            if self.job.graph.in_order {
                 // The next step reads results that nobody has computed.
                 return Ok(());
             }
@@ -108,11 +111,11 @@ impl<'j> Rehearsal<'j> {
     /// Names and functions of the outputs, with 1 for each integral.
     fn outputs(&self, step: &Step) -> Result<(), Fault> {
         let one = Evaluated { value: 1.0, error: 0.0 };
-        let ones = vec![one; self.job.integrals.len()];
+        let ones = vec![one; self.job.plan.integrals.len()];
         let about_names = |code| {
             matches!(code, "expr/unknown-name" | "expr/unknown-function" | "expr/file-arguments")
         };
-        match Outputs::new(self.job).fill(&mut TableLine::default(), step, &ones) {
+        match Outputs::new(self.job, true).fill(&mut TableLine::default(), step, &ones) {
             Err(fault) if about_names(fault.code) => Err(fault),
             _ => Ok(()),
         }
@@ -128,7 +131,7 @@ impl<'j> Rehearsal<'j> {
         if !asks || self.models.len() >= MODELS {
             return Ok(());
         }
-        if !self.models.insert(step.parameters.fingerprint()) {
+        if !self.models.insert(step.parameters.clone()) {
             return Ok(());
         }
         let node = step.parameters.node(self.job.options.mode, &SharedNotices::default());
@@ -149,7 +152,7 @@ impl<'j> Rehearsal<'j> {
     /// How many steps the run has, as far as it can be told.
     fn all_steps(&self) -> f64 {
         let seen = self.steps as f64;
-        if self.is_whole || self.job.in_order {
+        if self.is_whole || self.job.graph.in_order {
             seen
         } else {
             seen / self.fraction.clamp(1e-3, 1.0)

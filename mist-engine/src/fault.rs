@@ -49,3 +49,8 @@ pub(crate) fn placed(text: &SourceText, mut diagnostic: Diagnostic) -> Fault {
 pub(crate) fn fault(code: &'static str, text: &SourceText, message: impl Into<String>) -> Fault {
     Box::new(Diagnostic::error(code, text.span(), message))
 }
+
+/// A fault of the first step is a fault of the program; a later one ends the run.
+pub(crate) fn at_step(step: u64, fault: Fault) -> Failure {
+    if step == 0 { Failure::Program(vec![*fault]) } else { Failure::Step { step, fault } }
+}

@@ -1,22 +1,42 @@
 //! A program as a function of some of its variables.
 //!
-//! [`ProgramFunction::run`] gives the rows and the colours of the program with other values for the named
-//! variables; everything else, apertures and loops included, stays what the program says.
+//! The program is compiled once. [`Job::with_values`] gives entries of VARIABLES other values, from
+//! memory; everything else, apertures and loops included, stays what the program says.
 
 use std::{io, sync::Arc};
 
 use mist_format::{Diagnostic, program::VariableKind, suggestion::did_you_mean};
 
 use crate::{
-    Control, Failure, Files, Job, Options, OutputStream, Sink, TableLine, colour::ColourTable,
-    compile,
+    Control, Failure, Files, Job, Options, OutputStream, Sink, TableLine,
+    colour::ColourTable,
+    compile::{compile, initial_values},
 };
 
-/// A program and the variables that change.
+/// A variable of a job that is one number and that no loop changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JobVariable {
+    name: String,
+    value: f64,
+    entry: usize,
+}
+
+impl JobVariable {
+    /// Its name, as the program writes it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The value that the program gives it.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+}
+
+/// A compiled program and the variables that are its arguments.
 pub struct ProgramFunction {
-    source: String,
-    files: Arc<dyn Files + Send + Sync>,
-    options: Options,
+    job: Job,
+    variables: Vec<JobVariable>,
     names: Vec<String>,
     start: Vec<f64>,
     titles: [Vec<String>; 2],
@@ -86,24 +106,24 @@ impl ProgramFunction {
         options: Options,
         names: &[String],
     ) -> Result<Self, FunctionError> {
-        let job = compile(source, files.clone(), &options).map_err(FunctionError::Program)?;
+        let job = compile(source, files, &options).map_err(FunctionError::Program)?;
         if names.is_empty() {
             return Err(FunctionError::Nothing);
         }
-        let mut found: Vec<String> = Vec::new();
-        let mut start = Vec::new();
+        let mut variables: Vec<JobVariable> = Vec::new();
         for name in names {
-            let (name, value) = job.variable(name)?;
-            if found.contains(&name) {
-                return Err(FunctionError::Twice(name));
+            let variable = job.variable(name)?;
+            if variables.contains(&variable) {
+                return Err(FunctionError::Twice(variable.name));
             }
-            found.push(name);
-            start.push(value);
+            variables.push(variable);
         }
+        let start = variables.iter().map(JobVariable::value).collect();
+        let names = variables.iter().map(|variable| variable.name.clone()).collect();
         let titles = job.columns().map(|titles| titles.into_iter().map(str::to_owned).collect());
         let headers = job.program().files.headers();
         let headers = headers.map(|header| header.as_str().to_owned()).collect();
-        Ok(Self { source: source.to_owned(), files, options, names: found, start, titles, headers })
+        Ok(Self { job, variables, names, start, titles, headers })
     }
 
     /// The variables, as the program writes them.
@@ -132,9 +152,7 @@ impl ProgramFunction {
     ///
     /// As [`Job::run`]; a value that the model cannot take is one of them.
     pub fn run(&self, values: &[f64], control: &Control) -> Result<FunctionValues, Failure> {
-        let named = self.names.iter().cloned().zip(values.iter().copied());
-        let options = Options { values: named.collect(), ..self.options.clone() };
-        let job = compile(&self.source, self.files.clone(), &options).map_err(Failure::Program)?;
+        let job = self.job.with_values(&self.variables, values).map_err(Failure::Program)?;
         let mut ran = FunctionValues::default();
         let once = Control { cancel: control.cancel.clone(), progress: None };
         let colour = job.run(&mut ran, &once)?.colour;
@@ -147,6 +165,10 @@ impl Sink for FunctionValues {
         Ok(())
     }
 
+    fn wants(&self, _: OutputStream) -> bool {
+        false
+    }
+
     fn row(&mut self, line: &TableLine) -> io::Result<()> {
         let loops = line.loops().map(str::to_owned).collect();
         self.rows.push(OutputRow { loops, outputs: line.outputs().to_vec() });
@@ -155,32 +177,65 @@ impl Sink for FunctionValues {
 }
 
 impl Job {
-    /// The variable that `name` means, as the program writes it, and its value.
-    fn variable(&self, name: &str) -> Result<(String, f64), FunctionError> {
-        let written = |entry: &crate::job::VariableEntry| {
-            self.program.variables[entry.variable].name.as_str().to_owned()
-        };
-        let means = |entry: &crate::job::VariableEntry| {
-            let written = written(entry);
+    /// The job with other values for some of its variables, one value each. Nothing is compiled
+    /// again, and no text is made of the numbers.
+    ///
+    /// # Errors
+    ///
+    /// Expressions of VARIABLES that fail with these values.
+    pub fn with_values(
+        &self,
+        variables: &[JobVariable],
+        values: &[f64],
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let new = variables.iter().map(|variable| variable.entry).zip(values.iter().copied());
+        let is_new = |entry: usize| variables.iter().any(|variable| variable.entry == entry);
+        let old = self.given.iter().copied().filter(|(entry, _)| !is_new(*entry));
+        let given: Vec<(usize, f64)> = old.chain(new).collect();
+        let mut faults = Vec::new();
+        let plan = &self.plan;
+        let initial = initial_values(
+            (&plan.entries, &plan.program.variables),
+            (&plan.names, &self.library),
+            &given,
+            |fault| faults.push(fault),
+        );
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        Ok(Self { given: given.into(), initial: initial.into(), ..self.clone() })
+    }
+
+    /// The variable called `name`. A parameter of the model is named with or without its `#`.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such variable, or if it is not one number that stays as it is.
+    pub fn variable(&self, name: &str) -> Result<JobVariable, FunctionError> {
+        let plan = &self.plan;
+        let written = |at: usize| plan.program.variables[plan.entries[at].variable].name.as_str();
+        let means = |at: &usize| {
+            let written = written(*at);
             written == name || written.strip_prefix('#') == Some(name)
         };
-        let mut all = (0..).zip(&self.entries).filter(|(_, entry)| means(entry));
-        let Some((at, entry)) = all.next() else {
-            let names: Vec<String> = self.entries.iter().map(written).collect();
-            let help = did_you_mean(name, names.iter().map(String::as_str));
+        let count = plan.entries.len();
+        let mut all = (0..count).filter(means);
+        let Some(at) = all.next() else {
+            let help = did_you_mean(name, (0..count).map(written));
             return Err(FunctionError::Unknown { name: name.to_owned(), help });
         };
-        let name = written(entry);
+        let name = written(at).to_owned();
         if all.next().is_some() {
             return Err(FunctionError::Twice(name));
         }
-        if self.loops.iter().any(|each| each.entries().contains(&at)) {
+        if plan.loops.iter().any(|each| each.entries().contains(&at)) {
             return Err(FunctionError::Looped(name));
         }
-        let is_text = self.program.variables[entry.variable].kind == VariableKind::Literal;
+        let entry = &plan.entries[at];
+        let is_text = plan.program.variables[entry.variable].kind == VariableKind::Literal;
         let value = self.initial.iter().find(|(slot, _)| Some(*slot) == entry.slot);
-        match value.map(|(_, value)| value.as_slice()) {
-            Some([value]) if !is_text => Ok((name, *value)),
+        match value.and_then(|(_, value)| value.single()) {
+            Some(value) if !is_text => Ok(JobVariable { name, value, entry: at }),
             _ => Err(FunctionError::NoNumber(name)),
         }
     }

@@ -30,17 +30,20 @@
 //! The crate opens no file and no socket, and starts no thread pool.
 
 mod advice;
+mod evaluate;
 mod fault;
 mod files;
+mod graph;
 mod journal;
 mod limits;
 mod listing;
-mod scope;
-mod share;
+mod plan;
+mod slots;
 mod step;
 mod sum;
 mod sweep;
 mod uncertainty;
+mod values;
 
 pub mod colour;
 pub mod compile;

@@ -1,6 +1,11 @@
 //! The listing: what was run, with which parameters, and how long it took.
 
-use crate::Job;
+use mist_format::number::{TEXT_DIGITS, push_list};
+
+use crate::{
+    Job,
+    step::{ListingLine, SentInput},
+};
 
 /// The line of names of a samples file.
 pub(crate) const SAMPLES_HEAD: &str = "order\tthetas\tphis\tx\ty\tz\tBRDF\n";
@@ -10,11 +15,11 @@ pub(crate) fn head(job: &Job) -> String {
     let mut text =
         format!("mist {}\r\nRandom seed: {}\r\n\n", env!("CARGO_PKG_VERSION"), job.options.seed);
     let mut line = |key: &str, value: &str| text.push_str(&format!("{key}: {value}\n"));
-    line("Integrating model", job.class.name);
+    line("Integrating model", job.plan.class.name);
     line("Listing file", &job.listing_name());
     line("Samples file", job.samples_name().unwrap_or("none"));
     line("Results file", &job.results_name());
-    for header in job.program.files.headers() {
+    for header in job.plan.program.files.headers() {
         line("Header", header.as_str());
     }
     text
@@ -25,4 +30,17 @@ pub(crate) fn tail(seconds: f64) -> String {
     let whole = seconds as u64;
     let (hours, minutes, rest) = (whole / 3600, whole / 60 % 60, whole % 60);
     format!("Elapsed time: {whole} s ({hours} hrs. {minutes} min. {rest} s)\n")
+}
+
+/// Appends the line of a parameter that was sent to the model.
+pub(crate) fn push_parameter(text: &mut String, job: &Job, line: &ListingLine) {
+    let name = job.plan.entries[line.entry].parameter_name().unwrap_or_default();
+    text.push_str("Setting parameter ");
+    text.push_str(name);
+    text.push_str(" to ");
+    match &line.input {
+        SentInput::Text(input) => text.push_str(input),
+        SentInput::Value(value) => push_list(text, value.as_slice(), TEXT_DIGITS),
+    }
+    text.push('\n');
 }

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     DataFiles, Failure, FileError, Files, Job, MemoryFiles,
-    parameters::{ModelParameters, SetError},
+    parameters::{ModelParameters, ParameterInput, ParameterPath, SetError},
     quirk::dialect,
     region::RegionError,
     replay::Replay,
@@ -170,9 +170,11 @@ impl Material {
         let own = self.files.iter().map(|(name, text)| (name.clone(), text.as_str().into()));
         let shelf = LayeredFiles { own: MemoryFiles(own.collect()), more: more_files };
         let library = DataFiles::new(Arc::new(shelf), dialect(mode));
-        let mut parameters = ModelParameters::new(class(&self.model)?);
+        let class = class(&self.model)?;
+        let mut parameters = ModelParameters::new(class);
         for (path, value) in &self.parameters {
-            parameters.set(path, value, &library, mode, None)?;
+            let path = ParameterPath::resolve(class, path);
+            parameters.set(&path, ParameterInput::Text(value), &library, mode, None)?;
         }
         Ok(PreparedMaterial { parameters, mode })
     }
@@ -209,7 +211,7 @@ impl PreparedMaterial {
     #[must_use]
     pub fn at(&self, lambda: f64) -> Self {
         let mut parameters = self.parameters.clone();
-        parameters.set_wavelength(lambda);
+        parameters.set_wavelength(lambda, self.mode);
         if self.mode == Mode::Compat {
             parameters.forget_other_wavelengths();
         }

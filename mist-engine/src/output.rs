@@ -11,9 +11,10 @@ use mist_format::{
 use crate::{
     Job,
     fault::{Fault, placed},
-    scope::SlotValues,
+    slots::SlotValues,
     step::{COLUMN_DIGITS, Evaluated, LoopCell, Step},
     uncertainty::{ErrorColumn, ErrorColumns},
+    values::NodeValues,
 };
 
 /// One of the three texts that a run writes.
@@ -36,8 +37,12 @@ pub trait Sink: Send {
     /// If the text cannot be kept; the run ends.
     fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()>;
 
-    /// Takes a line of the results in its parts, after its text was written. Nothing is done with
-    /// it unless a sink wants it.
+    /// Whether the texts of `stream` are needed; if not, a run does not make them.
+    fn wants(&self, _stream: OutputStream) -> bool {
+        true
+    }
+
+    /// Takes a line of the results in its parts, after its text was written.
     ///
     /// # Errors
     ///
@@ -91,7 +96,7 @@ impl Sink for MemorySink {
 /// The header lines and the line of names.
 pub(crate) fn head(job: &Job) -> String {
     let mut text = String::new();
-    for header in job.program.files.headers() {
+    for header in job.plan.program.files.headers() {
         text.push_str(header.as_str());
         text.push('\n');
     }
@@ -100,15 +105,15 @@ pub(crate) fn head(job: &Job) -> String {
         text.push_str(title);
         text.push('\t');
     }
-    for (at, output) in job.outputs.iter().enumerate() {
+    for (at, output) in job.plan.outputs.iter().enumerate() {
         text.push_str(&output.label);
         text.push('\t');
-        for column in job.errors.iter().flat_map(|errors| errors.after(at)) {
+        for column in job.plan.errors.iter().flat_map(|errors| errors.after(at)) {
             text.push_str(&column.title);
             text.push('\t');
         }
     }
-    for column in job.errors.iter().flat_map(ErrorColumns::last) {
+    for column in job.plan.errors.iter().flat_map(ErrorColumns::last) {
         text.push_str(&column.title);
         text.push('\t');
     }
@@ -147,18 +152,20 @@ pub(crate) struct Outputs<'j> {
     /// Whether an integral or an output has the name of a variable, and hides it until the end
     /// of the line.
     hides: bool,
+    /// Whether the numbers are formatted, and not only computed.
+    formats: bool,
 }
 
 impl<'j> Outputs<'j> {
-    pub(crate) fn new(job: &'j Job) -> Self {
-        let scope = SlotValues::new(job.names.len(), job.library.clone());
-        let integrals = job.integrals.iter().map(|plan| plan.slot);
-        let errors = job.errors.iter().flat_map(ErrorColumns::slots);
-        let outputs = job.outputs.iter().map(|output| output.slot);
-        let mut results = integrals.chain(errors).chain(outputs);
-        let predefined = [job.required.pi, job.required.deg];
-        let hides = results.any(|slot| job.reads.contains(&slot) || predefined.contains(&slot));
-        Self { job, scope, stack: Stack::default(), values: None, hides }
+    /// For the lines of `job`; with `formats` their texts are made, not only their numbers.
+    pub(crate) fn new(job: &'j Job, formats: bool) -> Self {
+        let scope = SlotValues::new(job.plan.names.len(), job.library.clone());
+        let required = &job.plan.required;
+        let predefined = [required.pi, required.deg];
+        let mut results = job.plan.results();
+        let hides =
+            results.any(|slot| job.plan.reads.contains(&slot) || predefined.contains(&slot));
+        Self { job, scope, stack: Stack::default(), values: None, hides, formats }
     }
 
     /// Puts the line of `step`, whose integrals came out as `integrals`, into `line`.
@@ -170,11 +177,11 @@ impl<'j> Outputs<'j> {
     ) -> Result<(), Fault> {
         let job = self.job;
         self.take_values(step);
-        for (plan, evaluated) in job.integrals.iter().zip(integrals) {
+        for (plan, evaluated) in job.plan.integrals.iter().zip(integrals) {
             self.scope.set_number(plan.slot, evaluated.value);
         }
         let error = |column: &ErrorColumn| integrals[column.integral].error;
-        for column in job.errors.iter().flat_map(ErrorColumns::all) {
+        for column in job.plan.errors.iter().flat_map(ErrorColumns::all) {
             self.scope.set_number(column.slot, error(column));
         }
         let TableLine { text, cells, outputs } = line;
@@ -187,17 +194,22 @@ impl<'j> Outputs<'j> {
             cells.push(start..text.len());
             text.push('\t');
         }
-        for (at, output) in job.outputs.iter().enumerate() {
+        for output in &job.plan.outputs {
             let value = self.number_at(&output.expr, &output.text)?;
             self.scope.set_number(output.slot, value);
-            job.format.push(text, value);
             outputs.push(value);
-            for column in job.errors.iter().flat_map(|errors| errors.after(at)) {
-                job.format.push(text, error(column));
+        }
+        if !self.formats {
+            return Ok(());
+        }
+        for (at, value) in outputs.iter().enumerate() {
+            job.plan.format.push(text, *value);
+            for column in job.plan.errors.iter().flat_map(|errors| errors.after(at)) {
+                job.plan.format.push(text, error(column));
             }
         }
-        for column in job.errors.iter().flat_map(ErrorColumns::last) {
-            job.format.push(text, error(column));
+        for column in job.plan.errors.iter().flat_map(ErrorColumns::last) {
+            job.plan.format.push(text, error(column));
         }
         text.push('\n');
         Ok(())
@@ -211,9 +223,9 @@ impl<'j> Outputs<'j> {
             return;
         }
         let pi = 4.0 * 1f64.atan();
-        self.scope.set_number(self.job.required.pi, pi);
-        self.scope.set_number(self.job.required.deg, pi / 180.0);
-        for (slot, value) in self.job.reads.iter().zip(&*step.values) {
+        self.scope.set_number(self.job.plan.required.pi, pi);
+        self.scope.set_number(self.job.plan.required.deg, pi / 180.0);
+        for (slot, value) in self.job.plan.reads.iter().zip(&*step.values) {
             if value.is_some() {
                 self.scope.put(*slot, value.as_ref());
             }
@@ -238,18 +250,16 @@ impl<'j> Outputs<'j> {
     /// The number that `expr`, written at `place`, gives now.
     pub(crate) fn number_at(&mut self, expr: &Expr, place: &SourceText) -> Result<f64, Fault> {
         self.scope.number(expr, &mut self.stack).map_err(|error| {
-            let known: Vec<&str> = self.scope.defined().map(|s| self.job.names.name(s)).collect();
+            let known: Vec<&str> =
+                self.scope.defined().map(|s| self.job.plan.names.name(s)).collect();
             placed(place, error.diagnostic(known))
         })
     }
 
     /// Gives integrals and labels to the scope of the next step.
-    pub(crate) fn feed_back(&self, scope: &mut SlotValues) {
-        let integrals = self.job.integrals.iter().map(|plan| plan.slot);
-        let errors = self.job.errors.iter().flat_map(ErrorColumns::slots);
-        let outputs = self.job.outputs.iter().map(|output| output.slot);
-        for slot in integrals.chain(errors).chain(outputs) {
-            scope.put(slot, self.scope.get(slot));
+    pub(crate) fn feed_back(&self, values: &mut NodeValues<'_>) {
+        for slot in self.job.plan.results() {
+            values.put(slot, self.scope.get(slot), None);
         }
     }
 }

@@ -1,42 +1,63 @@
-//! The parameters of a model as programs set them: texts by dotted names.
+//! The parameters of a model as programs set them: numbers and texts by dotted names.
 //!
 //! `source1.sdf.s = 0.2` walks from the model to its first source, to its slope distribution,
 //! and sets a number there. Naming a class (`sdf = Gaussian_…`) makes a new object with
-//! defaults. The whole is persistent: a step keeps its state while later steps change theirs.
+//! defaults. A [`ParameterPath`] resolves the dotted name once; a number is then stored with all
+//! its bits. Text is read only for parameters that are texts, and under compat, where NIST's
+//! program hands every number over with sixteen digits.
+//!
+//! The tree is persistent: a step keeps its state while later steps change theirs. Two states are
+//! equal if they build equal models; the comparison is exact.
 
 mod error;
 mod films;
-mod fingerprint;
 mod formula;
 mod index;
 mod object;
+mod path;
 mod persistent;
 mod source;
 mod state;
 mod table;
 
 pub use error::SetError;
-pub(crate) use fingerprint::Digest;
-pub use fingerprint::Fingerprint;
+pub use path::ParameterPath;
 
+use mist_format::number;
 use object::ObjectState;
 use persistent::Persistent;
 use scattering::{Class, Mode, ParameterNode, spec::SharedNotices};
 
+use std::borrow::Cow;
+
 use crate::DataFiles;
 
-/// Whether the dotted name `lower` is that of something inside of what `upper` names.
-pub(crate) fn is_below(lower: &str, upper: &str) -> bool {
-    lower.strip_prefix(upper).is_some_and(|rest| rest.starts_with('.'))
+/// A new value of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParameterInput<'a> {
+    /// A text, as a program or a material writes it.
+    Text(&'a str),
+    /// One number, or the elements of a vector such as (n,k); at least one.
+    Numbers(&'a [f64]),
+}
+
+impl<'a> ParameterInput<'a> {
+    /// The text that a program sends: numbers with sixteen digits.
+    pub(crate) fn to_text(self) -> Cow<'a, str> {
+        match self {
+            Self::Text(text) => Cow::Borrowed(text),
+            Self::Numbers(values) => Cow::Owned(number::list(values, number::TEXT_DIGITS)),
+        }
+    }
 }
 
 /// The state of a model's parameters.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ModelParameters {
     root: Persistent<ObjectState>,
 }
 
-/// What setting a parameter needs besides its name and text.
+/// The context in which a parameter is set.
 pub(crate) struct ParameterContext<'a> {
     pub(crate) library: &'a DataFiles,
     pub(crate) mode: Mode,
@@ -44,6 +65,13 @@ pub(crate) struct ParameterContext<'a> {
     pub(crate) evaluated_at: Option<f64>,
     /// Whether the parameter belongs to an object inside of the model.
     pub(crate) is_nested: bool,
+}
+
+impl ParameterContext<'_> {
+    /// Whether numbers are stored as they are, not as their texts are read.
+    fn keeps_bits(&self, values: &[f64]) -> bool {
+        self.mode == Mode::Sound && values.iter().all(|x| x.is_finite())
+    }
 }
 
 impl ModelParameters {
@@ -57,42 +85,67 @@ impl ModelParameters {
         self.root.class
     }
 
-    /// Sets the parameter with the dotted name `path` to what `text` says.
+    /// Sets the parameter at `path`.
     ///
     /// `previous` are the parameters of the last evaluation; NIST's library remembers optical
     /// constants by them.
     ///
     /// # Errors
     ///
-    /// For a name that is not known, a text that is not a value of the parameter's kind, and a
+    /// For a name that is not known, an input that is not a value of the parameter's kind, and a
     /// file that cannot be read.
     pub fn set(
         &mut self,
-        path: &str,
-        text: &str,
+        path: &ParameterPath,
+        input: ParameterInput<'_>,
         library: &DataFiles,
         mode: Mode,
         previous: Option<&Self>,
     ) -> Result<(), SetError> {
         let mut context = ParameterContext { library, mode, evaluated_at: None, is_nested: false };
         let before = previous.map(|parameters| &*parameters.root);
-        self.root.edit().set(path, text, &mut context, before).map_err(|error| error.named(path))
+        self.root
+            .edit()
+            .set(path.from_model(), input, &mut context, before)
+            .map_err(|error| error.named(path.as_str()))
+    }
+
+    /// Sets the number at `path`, with all its bits in a sound run.
+    ///
+    /// # Errors
+    ///
+    /// As [`ModelParameters::set`].
+    pub fn set_number(
+        &mut self,
+        path: &ParameterPath,
+        x: f64,
+        library: &DataFiles,
+        mode: Mode,
+    ) -> Result<(), SetError> {
+        self.set(path, ParameterInput::Numbers(&[x]), library, mode, None)
     }
 
     /// Whether `path` names a parameter of an object, which forgets what it was when it is set,
     /// and not a setting of a table, of optical constants or of films.
-    pub(crate) fn belongs_to_object(&self, path: &str) -> bool {
-        self.root.owns(path)
+    pub(crate) fn belongs_to_object(&self, path: &ParameterPath) -> bool {
+        self.root.owns(path.from_model())
     }
 
-    /// Sets every parameter called `lambda`, of the model and of all objects in it, in µm.
-    pub fn set_wavelength(&mut self, lambda: f64) {
-        self.root.edit().set_wavelength(lambda);
+    /// Sets every parameter called `lambda`, of the model and of all objects in it, in µm; under
+    /// compat to sixteen digits.
+    pub fn set_wavelength(&mut self, lambda: f64, mode: Mode) {
+        let rounded = if mode == Mode::Compat { number::reread(lambda) } else { None };
+        self.root.edit().set_wavelength(rounded.unwrap_or(lambda));
     }
 
-    /// Equal for states that build equal models.
-    pub fn fingerprint(&self) -> Fingerprint {
-        self.root.digest()
+    /// The hash of the state, which is kept until the state changes.
+    pub(crate) fn hash_code(&self) -> u64 {
+        self.root.hash_code()
+    }
+
+    /// Whether both share all their memory, which says that they are equal.
+    pub(crate) fn is_same_as(&self, other: &Self) -> bool {
+        self.root.is_same_as(&other.root)
     }
 
     /// The typed values from which the model is built.

@@ -16,13 +16,13 @@ use scattering::{Defect, Mode, Notice};
 use crate::{
     Control, Failure, Job,
     colour::{ColourTable, fold::Fold},
-    fault::Fault,
+    evaluate::Evaluator,
+    fault::at_step,
     journal::{Journal, NoJournal, StepResult},
     limits::Meter,
     listing,
     output::{OutputStream, Outputs, Sink, TableLine, head},
     replay::Replay,
-    share::Evaluator,
     step::{Evaluated, Step},
     uncertainty::ErrorColumns,
 };
@@ -81,7 +81,8 @@ impl Job {
             sink.write(OutputStream::Samples, listing::SAMPLES_HEAD)?;
         }
         let mut runner = Runner::new(self, sink, control, journal);
-        runner.fold = self.colour.as_ref().map(Fold::new);
+        let colour = self.plan.colour.as_ref();
+        runner.fold = colour.map(|section| Fold::new(section, self.initial_incident()));
         runner.steps()?;
         runner.sink.write(OutputStream::Listing, &listing::tail(runner.summary.seconds))?;
         let Runner { fold, mut summary, .. } = runner;
@@ -109,7 +110,7 @@ impl Job {
         sink: &mut dyn Sink,
         control: &Control,
     ) -> Result<RunSummary, Failure> {
-        assert!(!self.in_order, "a part of a job that runs in order");
+        assert!(!self.graph.in_order, "a part of a job that runs in order");
         let mut forgetful = NoJournal;
         let mut runner = Runner::new(self, sink, control, &mut forgetful);
         runner.part = Some(part);
@@ -184,6 +185,7 @@ impl<'a> Runner<'a> {
         control: &'a Control,
         journal: &'a mut dyn Journal,
     ) -> Self {
+        let outputs = Outputs::new(job, sink.wants(OutputStream::Results));
         Self {
             job,
             sink,
@@ -191,12 +193,12 @@ impl<'a> Runner<'a> {
             journal,
             meter: Meter::new(&job.options.limits),
             shared: Evaluator::new(job, control),
-            outputs: Outputs::new(job),
+            outputs,
             line: TableLine::default(),
             fold: None,
             summary: RunSummary::default(),
             part: None,
-            pace: if job.in_order { 1 } else { BLOCK_STEPS },
+            pace: if job.graph.in_order { 1 } else { BLOCK_STEPS },
         }
     }
 
@@ -232,7 +234,7 @@ impl<'a> Runner<'a> {
             self.end_block(fraction, block_started)?;
         }
         let threads = rayon::current_num_threads();
-        let mut batch = StepBatch::new(self.job, threads);
+        let mut batch = StepBatch::new(self.job, threads, self.sink.wants(OutputStream::Results));
         let mut goes_on = workers.replay(self.pace.saturating_mul(threads))?;
         while goes_on {
             let block_started = Instant::now();
@@ -251,10 +253,10 @@ impl<'a> Runner<'a> {
     fn finish(&mut self, batch: &mut StepBatch<'a>) -> Result<(), Failure> {
         let steps: Vec<&Step> = batch.steps().collect();
         let all = self.finished(&steps)?;
-        if self.fold.is_none() && self.job.lines_stand_alone() {
+        if self.fold.is_none() && self.job.graph.lines_independent {
             batch.fill(&all)?;
             for ((step, line), finished) in batch.lines().zip(&all) {
-                emit(self.sink, step, line, finished)?;
+                emit(self.job, self.sink, step, line, finished)?;
             }
         } else {
             for (step, finished) in steps.into_iter().zip(&all) {
@@ -277,7 +279,7 @@ impl<'a> Runner<'a> {
             let fraction = self.fraction(last);
             let block_started = Instant::now();
             let pace = self.pace;
-            let next = if self.job.in_order {
+            let next = if self.job.graph.in_order {
                 self.evaluate(&mut block, Some(&mut reader.replay))?;
                 reader.block(pace)
             } else {
@@ -330,13 +332,13 @@ impl<'a> Runner<'a> {
         mut replay: Option<&mut Replay<'_>>,
     ) -> Result<(), Failure> {
         let all = match &mut replay {
-            Some(replay) if self.job.chained => self.evaluate_chain(block, replay)?,
+            Some(replay) if self.job.graph.chained => self.evaluate_chain(block, replay)?,
             _ => self.finished(&block.iter().collect::<Vec<_>>())?,
         };
         for (step, finished) in block.iter().zip(&all) {
             self.write(step, finished)?;
             if let Some(replay) = &mut replay {
-                self.outputs.feed_back(&mut replay.scope);
+                self.outputs.feed_back(replay.values_mut());
             }
         }
         Ok(())
@@ -385,7 +387,7 @@ impl<'a> Runner<'a> {
         if let Some(fold) = &mut self.fold {
             fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
         }
-        emit(self.sink, step, &self.line, finished)
+        emit(self.job, self.sink, step, &self.line, finished)
     }
 
     /// What the journal has of the first steps of `block`.
@@ -405,8 +407,8 @@ impl<'a> Runner<'a> {
 
     fn samples(&mut self, step: &Step) -> String {
         match self.job.samples_name() {
-            Some(_) => self.shared.samples(step),
-            None => String::new(),
+            Some(_) if self.sink.wants(OutputStream::Samples) => self.shared.samples(step),
+            _ => String::new(),
         }
     }
 
@@ -420,7 +422,7 @@ impl<'a> Runner<'a> {
         let known = all.len();
         for (at, step) in block.iter_mut().enumerate() {
             let mut values = Vec::new();
-            for (number, plan) in self.job.integrals.iter().enumerate() {
+            for (number, plan) in self.job.plan.integrals.iter().enumerate() {
                 replay.add_integral(step).map_err(|fault| at_step(step.index, fault))?;
                 let last = match all.get(at) {
                     Some(finished) => finished.values.get(number),
@@ -431,10 +433,10 @@ impl<'a> Runner<'a> {
                     }
                 };
                 let last = last.copied().unwrap_or(Evaluated::NONE);
-                replay.scope.set_number(plan.slot, last.value);
-                let errors = self.job.errors.iter().flat_map(ErrorColumns::all);
+                replay.values_mut().set_number(plan.slot, last.value, None);
+                let errors = self.job.plan.errors.iter().flat_map(ErrorColumns::all);
                 for column in errors.filter(|column| column.integral == number) {
-                    replay.scope.set_number(column.slot, last.error);
+                    replay.values_mut().set_number(column.slot, last.error, None);
                 }
             }
             if at == all.len() {
@@ -446,26 +448,26 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Writes what `step` has to say: its part of the listing, its line, its samples.
+/// Writes the part of `step` of the listing, its line and its samples.
 fn emit(
+    job: &Job,
     sink: &mut dyn Sink,
     step: &Step,
     line: &TableLine,
     finished: &StepResult,
 ) -> Result<(), Failure> {
-    for line in &step.listing {
-        sink.write(OutputStream::Listing, line)?;
+    if !step.listing.is_empty() && sink.wants(OutputStream::Listing) {
+        let mut text = String::new();
+        step.listing.iter().for_each(|line| listing::push_parameter(&mut text, job, line));
+        sink.write(OutputStream::Listing, &text)?;
     }
-    sink.write(OutputStream::Results, &line.text)?;
+    if sink.wants(OutputStream::Results) {
+        sink.write(OutputStream::Results, &line.text)?;
+    }
     sink.row(line)?;
     if !finished.samples.is_empty() {
         sink.write(OutputStream::Samples, &finished.samples)?;
     }
     sink.step_done(step.index)?;
     Ok(())
-}
-
-/// A fault of the first step is a fault of the program; a later one ends the run.
-pub(crate) fn at_step(step: u64, fault: Fault) -> Failure {
-    if step == 0 { Failure::Program(vec![*fault]) } else { Failure::Step { step, fault } }
 }

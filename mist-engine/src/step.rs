@@ -14,6 +14,7 @@ use crate::{
     parameters::ModelParameters,
     region::{Region, RegionError},
     sampling::{LayoutKey, SamplingRule},
+    slots::same,
 };
 
 /// One combination of loop values, ready to be evaluated.
@@ -81,7 +82,22 @@ impl Evaluated {
 }
 
 /// Lines for the listing, mostly none or one.
-pub(crate) type Listing = SmallVec<[Arc<str>; 1]>;
+pub(crate) type Listing = SmallVec<[ListingLine; 1]>;
+
+/// A parameter that was sent to the model: a line of the listing.
+#[derive(Clone, Debug)]
+pub(crate) struct ListingLine {
+    /// The entry of VARIABLES that sent it.
+    pub(crate) entry: usize,
+    pub(crate) input: SentInput,
+}
+
+/// The input that an entry sent to the model.
+#[derive(Clone, Debug)]
+pub(crate) enum SentInput {
+    Text(Arc<str>),
+    Value(Value),
+}
 
 /// Digits of numbers in loop columns; the program's `format` does not concern them.
 pub(crate) const COLUMN_DIGITS: usize = 6;
@@ -102,5 +118,15 @@ impl LoopCell {
     /// The number `x`.
     pub(crate) fn of(x: f64) -> Self {
         Self::Text(general(x, COLUMN_DIGITS).into())
+    }
+}
+
+impl PartialEq for SentInput {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Text(a), Self::Text(b)) => Arc::ptr_eq(a, b) || a == b,
+            (Self::Value(a), Self::Value(b)) => same(Some(a), Some(b)),
+            _ => false,
+        }
     }
 }

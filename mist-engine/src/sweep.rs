@@ -1,80 +1,50 @@
 //! The nested loops of VARY.
 //!
-//! The last declared loop runs fastest. A loop does not set a variable but replaces the text of
-//! its entry in VARIABLES; what the other entries make of it is decided when the step evaluates
-//! them.
+//! The last declared loop runs fastest. A loop does not set a variable but replaces the content
+//! of its entry in VARIABLES; the step evaluates the entry with that content.
 
 mod for_loop;
 mod list_loop;
 
-pub(crate) use for_loop::{ForPlan, ForState};
-pub(crate) use list_loop::{ListColumn, ListPlan, ListState};
-
 use std::sync::Arc;
 
-use mist_format::expr::Stack;
+use mist_format::expr::Value;
 use scattering::Mode;
 
-use crate::{Job, fault::Fault, scope::SlotValues, step::LoopCells};
+use crate::{
+    fault::Fault,
+    plan::{LoopPlan, Plan},
+    step::LoopCells,
+    values::NodeValues,
+};
+use for_loop::ForState;
+use list_loop::ListState;
 
-/// A loop as compiled.
-pub(crate) enum LoopPlan {
-    For(Box<ForPlan>),
-    List(ListPlan),
-}
-
-impl LoopPlan {
-    /// Entries of VARIABLES that the loop writes.
-    pub(crate) fn entries(&self) -> Vec<usize> {
-        match self {
-            Self::For(plan) => vec![plan.entry],
-            Self::List(plan) => plan.columns.iter().map(|column| column.entry).collect(),
-        }
-    }
-
-    /// Names of its columns in the results.
-    pub(crate) fn titles(&self) -> Vec<&str> {
-        match self {
-            Self::For(plan) => vec![plan.title.as_str()],
-            Self::List(plan) => plan.columns.iter().map(|c| c.title.as_str()).collect(),
-        }
-    }
-}
-
-/// What a loop writes into an entry of VARIABLES.
+/// New content of an entry of VARIABLES.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LoopWrite {
     /// The entry.
     pub(crate) entry: usize,
-    /// What it says from now on.
     pub(crate) content: EntryContent,
 }
 
-/// The new content of an entry of VARIABLES.
+/// The content of an entry of VARIABLES, in place of the program's.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum EntryContent {
-    /// A text that is a number, where the text itself is not wanted.
-    Number(f64),
+    /// A value.
+    Value(Value),
     /// An expression, or a text for the model.
     Text(Arc<str>),
 }
 
-/// What loops need to evaluate their expressions.
-pub(crate) struct LoopContext<'a> {
-    pub(crate) scope: &'a mut SlotValues,
-    pub(crate) stack: &'a mut Stack,
-    pub(crate) names: &'a crate::scope::SlotNames,
+/// The context in which loops evaluate their expressions.
+pub(crate) struct LoopContext<'a, 'j> {
+    pub(crate) plan: &'j Plan,
+    pub(crate) values: &'a mut NodeValues<'j>,
     pub(crate) mode: Mode,
 }
 
-impl<'a> LoopContext<'a> {
-    /// That of `job`.
-    pub(crate) fn of(job: &'a Job, scope: &'a mut SlotValues, stack: &'a mut Stack) -> Self {
-        Self { scope, stack, names: &job.names, mode: job.options.mode }
-    }
-}
-
-/// Where a loop stands.
+/// The position of a loop.
 pub(crate) enum LoopState {
     For(ForState),
     List(ListState),
@@ -88,7 +58,7 @@ pub(crate) struct Sweep<'j> {
     moved: usize,
     /// Whether the loops were never written.
     is_new: bool,
-    /// What was written last.
+    /// The contents written last.
     written: Vec<LoopWrite>,
     /// How often each loop was advanced since it was reset.
     counts: Vec<u64>,
@@ -98,7 +68,7 @@ impl<'j> Sweep<'j> {
     /// Every loop at its first value.
     pub(crate) fn start(
         plans: &'j [LoopPlan],
-        context: &mut LoopContext<'_>,
+        context: &mut LoopContext<'_, '_>,
     ) -> Result<Self, Fault> {
         let start = |plan: &LoopPlan| match plan {
             LoopPlan::For(plan) => ForState::start(plan, context).map(LoopState::For),
@@ -110,7 +80,7 @@ impl<'j> Sweep<'j> {
     }
 
     /// Goes to the next combination; false after the last one.
-    pub(crate) fn advance(&mut self, context: &mut LoopContext<'_>) -> Result<bool, Fault> {
+    pub(crate) fn advance(&mut self, context: &mut LoopContext<'_, '_>) -> Result<bool, Fault> {
         for at in (0..self.plans.len()).rev() {
             self.moved = self.moved.min(at);
             let inside = match (&self.plans[at], &mut self.states[at]) {
@@ -136,14 +106,14 @@ impl<'j> Sweep<'j> {
     /// they are declared, later the last one first, as they have moved.
     pub(crate) fn write(
         &mut self,
-        context: &mut LoopContext<'_>,
+        context: &mut LoopContext<'_, '_>,
     ) -> Result<std::vec::Drain<'_, LoopWrite>, Fault> {
         let (first, count) = (self.moved, self.plans.len());
         for at in first..count {
             let at = if self.is_new { at } else { count - 1 - (at - first) };
             match (&self.plans[at], &mut self.states[at]) {
                 (LoopPlan::For(plan), LoopState::For(state)) => {
-                    state.write(plan, &mut self.written);
+                    state.write(plan, context.mode, &mut self.written);
                 }
                 (LoopPlan::List(plan), LoopState::List(state)) => {
                     state.write(plan, context, &mut self.written)?;

@@ -4,7 +4,7 @@
 //! this integral and nothing else; errors of integrals that no output shows so stand after all
 //! outputs, in the order of the program. Expressions of outputs may use NAME.error.
 
-use crate::job::{IntegralPlan, OutputPlan};
+use crate::plan::{IntegralPlan, OutputPlan};
 
 /// The error of one integral as a column.
 pub(crate) struct ErrorColumn {

@@ -5,8 +5,7 @@ mod general;
 mod prefix;
 mod printf;
 
-pub(crate) use general::TEXT_DIGITS;
-pub use general::{general, list, loop_text, push_general, push_list, reread};
+pub use general::{TEXT_DIGITS, general, list, loop_text, push_general, push_list, reread};
 pub(crate) use prefix::is_blank;
 pub use prefix::{IntegerPrefix, NumberPrefix, integer_prefix, number_prefix, whole_number};
 pub use printf::{FormatError, PrintfFormat};

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     Job,
-    job::{ApertureParameter, ApertureSetting, IntegralPlan},
+    plan::{ApertureParameter, ApertureSetting, IntegralPlan, Plan},
 };
 
 /// Room for numbers with a few digits: π/2 is also 1.5708, 2π is also 6.2832.
@@ -24,19 +24,19 @@ const ROUNDED: f64 = 1.0001;
 /// Every angle that the program hands over: polar ones up to π/2 or π, azimuths up to 2π.
 pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
     let required = [
-        ("incidentangle", job.required.incidentangle, FRAC_PI_2),
-        ("rotation", job.required.rotation, TAU),
+        ("incidentangle", job.plan.required.incidentangle, FRAC_PI_2),
+        ("rotation", job.plan.required.rotation, TAU),
     ];
     let mut found = Vec::new();
     for (name, slot, most) in required {
-        let entry = job.entries.iter().rev().find(|entry| entry.slot == Some(slot));
+        let entry = job.plan.entries.iter().rev().find(|entry| entry.slot == Some(slot));
         if let Some(entry) = entry {
-            let text = &job.program.variables[entry.variable].value;
+            let text = &job.plan.program.variables[entry.variable].value;
             found.push(angle(name.into(), text, Source::Slot(slot), Element::Last, most));
         }
     }
-    let settings = |plan| -> Vec<Reading<'_>> { settings_of(plan) };
-    found.extend(job.integrals.iter().flat_map(settings));
+    let settings = |plan| settings_of(&job.plan, plan);
+    found.extend(job.plan.integrals.iter().flat_map(settings));
     found.extend(parameters(job));
     found
 }
@@ -51,14 +51,19 @@ fn angle<'j>(
     Reading { what, unit: Unit::Radians, text, source, element, most: most * ROUNDED, extreme: 0.0 }
 }
 
-fn settings_of(plan: &IntegralPlan) -> Vec<Reading<'_>> {
-    plan.settings.iter().flat_map(|setting| setting_angles(plan, setting)).collect()
+fn settings_of<'j>(all: &'j Plan, plan: &'j IntegralPlan) -> Vec<Reading<'j>> {
+    let angles = |setting| setting_angles(all, plan, setting);
+    plan.settings.iter().flat_map(angles).collect()
 }
 
-fn setting_angles<'j>(plan: &'j IntegralPlan, setting: &'j ApertureSetting) -> Vec<Reading<'j>> {
+fn setting_angles<'j>(
+    all: &'j Plan,
+    plan: &'j IntegralPlan,
+    setting: &'j ApertureSetting,
+) -> Vec<Reading<'j>> {
     let reading = |what: &str, element, most| {
         let what = format!("{what} of {}", plan.name);
-        angle(what, &setting.text, Source::Expr(&setting.expr), element, most)
+        angle(what, &setting.text, Source::Expr(all.expression(setting.expr)), element, most)
     };
     // A cone may stand below the horizon in part; a direction or a corner may not.
     let polar = if matches!(plan.shape, ApertureShape::Circle | ApertureShape::Annulus) {
@@ -87,11 +92,11 @@ fn setting_angles<'j>(plan: &'j IntegralPlan, setting: &'j ApertureSetting) -> V
 
 /// Parameters of the model that are angles in radians.
 fn parameters(job: &Job) -> impl Iterator<Item = Reading<'_>> {
-    let all = || job.class.params.iter().flat_map(|group| group.iter());
-    job.entries.iter().filter_map(move |entry| {
-        let name = entry.parameter.as_deref()?;
+    let all = || job.plan.class.params.iter().flat_map(|group| group.iter());
+    job.plan.entries.iter().filter_map(move |entry| {
+        let name = entry.parameter_name()?;
         all().find(|parameter| parameter.name == name && parameter.unit == "rad")?;
-        let text = &job.program.variables[entry.variable].value;
+        let text = &job.plan.program.variables[entry.variable].value;
         let source = Source::Slot(entry.slot?);
         Some(angle(format!("the parameter {name}"), text, source, Element::Last, TAU))
     })
@@ -184,9 +189,9 @@ fn in_degrees(text: &str) -> Vec<&str> {
 
 /// Every expression of the program.
 fn expressions(job: &Job) -> Vec<&SourceText> {
-    let program = &job.program;
+    let program = &job.plan.program;
     let variables = program.variables.iter().filter(|v| v.kind != VariableKind::Literal);
-    let settings = job.integrals.iter().flat_map(|integral| &integral.settings);
-    let outputs = job.outputs.iter().map(|output| &output.text);
+    let settings = job.plan.integrals.iter().flat_map(|integral| &integral.settings);
+    let outputs = job.plan.outputs.iter().map(|output| &output.text);
     variables.map(|v| &v.value).chain(settings.map(|s| &s.text)).chain(outputs).collect()
 }

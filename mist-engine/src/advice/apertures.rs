@@ -51,7 +51,7 @@ struct Few {
 
 impl<'j> Apertures<'j> {
     pub(super) fn new(job: &'j Job) -> Self {
-        let seen = job.integrals.iter().map(|_| Seen::default()).collect();
+        let seen = job.plan.integrals.iter().map(|_| Seen::default()).collect();
         Self { job, seen, directions: 0.0, steps: 0.0 }
     }
 
@@ -93,7 +93,7 @@ impl<'j> Apertures<'j> {
     }
 
     fn few(&self, at: usize, few: Few) -> Diagnostic {
-        let name = &self.job.integrals[at].name;
+        let name = &self.job.plan.integrals[at].name;
         let message = match few.directions {
             0 => format!("no direction falls into {name}: it has no value"),
             1 => format!("only one direction falls into {name}"),
@@ -113,7 +113,7 @@ impl<'j> Apertures<'j> {
     }
 
     fn many(&self, at: usize, most: f64) -> Diagnostic {
-        let name = &self.job.integrals[at].name;
+        let name = &self.job.plan.integrals[at].name;
         let limit = self.job.options.limits.directions;
         let help = "make differential larger: 1e5 directions are much already";
         let found = if most > limit {
@@ -130,14 +130,15 @@ impl<'j> Apertures<'j> {
         let message = format!(
             "the run evaluates the model about {evaluations:.1e} times in {steps:.0} steps"
         );
-        let place = self.differential().map_or(self.job.program.sections.vary, SourceText::span);
+        let place =
+            self.differential().map_or(self.job.plan.program.sections.vary, SourceText::span);
         Diagnostic::warning("sampling/long-run", place, message)
             .help("make differential larger, or the loops shorter")
     }
 
     /// The text that says how much a direction stands for.
     fn differential(&self) -> Option<&SourceText> {
-        self.job.variable_text(self.job.required.differential)
+        self.job.plan.variable_text(self.job.plan.required.differential)
     }
 
     fn with_differential(&self, found: Diagnostic) -> Diagnostic {
@@ -151,11 +152,11 @@ impl<'j> Apertures<'j> {
 impl Seen {
     /// Counts the directions of a layout that was not seen before.
     fn count(&mut self, integral: &StepIntegral, estimate: f64) -> Result<(), RegionError> {
-        let Some((plane, seed)) = integral.rule.plane() else { return Ok(()) };
         let is_area = !matches!(integral.region, Region::Differential { .. });
         if !is_area || estimate > COUNTED || self.layouts.len() >= LAYOUTS {
             return Ok(());
         }
+        let Some((plane, seed)) = integral.rule.plane() else { return Ok(()) };
         if !self.layouts.insert(LayoutKey::new(&integral.region, &integral.rule)) {
             return Ok(());
         }

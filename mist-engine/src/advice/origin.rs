@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use mist_format::{Span, program::SourceText};
 
 use super::words::{Kind, Word, words};
-use crate::{Job, sweep::LoopPlan};
+use crate::{Job, plan::LoopPlan};
 
 /// Longer chains of variables are not followed.
 const LONGEST_CHAIN: usize = 32;
@@ -123,9 +123,9 @@ enum Source {
 
 /// What gives the variable `name` its value: a loop, or its entry.
 fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
-    let slot = job.names.find(name)?;
-    let at = job.entries.iter().rposition(|entry| entry.slot == Some(slot))?;
-    let writer = job.loops.iter().rev().find(|each| each.entries().contains(&at));
+    let slot = job.plan.names.find(name)?;
+    let at = job.plan.entries.iter().rposition(|entry| entry.slot == Some(slot))?;
+    let writer = job.plan.loops.iter().rev().find(|each| each.entries().contains(&at));
     Some(match writer {
         Some(LoopPlan::For(plan)) => {
             let statement = &plan.statement;
@@ -137,7 +137,9 @@ fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
             Source::Text(if from { statement.from.clone() } else { statement.to.clone() })
         }
         Some(LoopPlan::List(plan)) => Source::File(plan.statement.file.clone()),
-        None => Source::Text(job.program.variables[job.entries[at].variable].value.clone()),
+        None => {
+            Source::Text(job.plan.program.variables[job.plan.entries[at].variable].value.clone())
+        }
     })
 }
 
@@ -184,10 +186,10 @@ fn converts(name: &str) -> bool {
 /// Everything that is written for the variable `name`: its entries, or the bounds of the loop
 /// that writes them.
 fn texts_of(job: &Job, name: &str) -> Vec<String> {
-    let Some(slot) = job.names.find(name) else { return Vec::new() };
+    let Some(slot) = job.plan.names.find(name) else { return Vec::new() };
     let mut found = Vec::new();
-    for (at, entry) in job.entries.iter().enumerate().filter(|(_, e)| e.slot == Some(slot)) {
-        let writers = job.loops.iter().filter(|each| each.entries().contains(&at));
+    for (at, entry) in job.plan.entries.iter().enumerate().filter(|(_, e)| e.slot == Some(slot)) {
+        let writers = job.plan.loops.iter().filter(|each| each.entries().contains(&at));
         let bounds: Vec<&SourceText> = writers
             .flat_map(|each| match each {
                 LoopPlan::For(plan) => vec![&plan.statement.from, &plan.statement.to],
@@ -195,11 +197,11 @@ fn texts_of(job: &Job, name: &str) -> Vec<String> {
             })
             .collect();
         match bounds[..] {
-            [] => found.push(&job.program.variables[entry.variable].value),
+            [] => found.push(&job.plan.program.variables[entry.variable].value),
             _ => found.extend(bounds),
         }
     }
-    let outputs = job.outputs.iter().filter(|output| output.slot == slot);
+    let outputs = job.plan.outputs.iter().filter(|output| output.slot == slot);
     found.extend(outputs.map(|output| &output.text));
     found.into_iter().map(|text| text.as_str().to_owned()).collect()
 }

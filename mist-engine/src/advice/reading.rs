@@ -9,7 +9,7 @@ use mist_format::{
 };
 
 use super::origin::{Element, Origin, is_converted, is_variable_converted, of_variable, origin};
-use crate::{Job, scope::SlotValues};
+use crate::{Job, slots::SlotValues};
 
 /// Where the number is found.
 pub(super) enum Source<'j> {
@@ -66,7 +66,7 @@ impl<'j> Reading<'j> {
         let written = || origin(job, self.text, self.element, self.extreme);
         let (origin, converted) = match self.source {
             Source::Slot(slot) => {
-                let name = job.names.name(slot);
+                let name = job.plan.names.name(slot);
                 let found = of_variable(job, name, self.extreme);
                 (found.unwrap_or_else(written), is_variable_converted(job, name))
             }

@@ -9,7 +9,7 @@ use mist_format::{
     suggestion::did_you_mean,
 };
 
-use crate::{Job, colour::section::ColourSection, quirk::dialect, sweep::LoopPlan};
+use crate::{Job, colour::section::ColourSection, plan::LoopPlan, quirk::dialect};
 
 /// Names that the language itself reads at every step.
 const READ_BY_ALL: [&str; 7] =
@@ -20,8 +20,8 @@ pub(super) fn warnings(job: &Job) -> Vec<Diagnostic> {
     let read = Read::of(job);
     let mut told = BTreeSet::new();
     let mut found = Vec::new();
-    for (at, entry) in job.entries.iter().enumerate() {
-        let variable = &job.program.variables[entry.variable];
+    for (at, entry) in job.plan.entries.iter().enumerate() {
+        let variable = &job.plan.program.variables[entry.variable];
         let Some(slot) = entry.slot.filter(|_| variable.kind == VariableKind::Local) else {
             continue;
         };
@@ -39,7 +39,7 @@ pub(super) fn warnings(job: &Job) -> Vec<Diagnostic> {
 }
 
 fn help(job: &Job, name: &str) -> String {
-    let parameters = || job.class.params.iter().flat_map(|group| group.iter());
+    let parameters = || job.plan.class.params.iter().flat_map(|group| group.iter());
     if parameters().any(|parameter| parameter.name == name) {
         return format!("write `#{name}` to set the model's parameter {name}");
     }
@@ -59,25 +59,17 @@ impl Read {
     fn of(job: &Job) -> Self {
         let mut slots = BTreeSet::new();
         // `x = x + 1` alone is no use of x.
-        for entry in &job.entries {
+        for entry in &job.plan.entries {
             if let Some(expr) = &entry.expr {
                 let others = expr.slots().iter().filter(|read| Some(**read) != entry.slot);
                 slots.extend(others);
             }
         }
-        let mut add = |expr: &Expr| slots.extend(expr.slots());
-        for each in &job.loops {
-            if let LoopPlan::For(plan) = each {
-                [&plan.from, &plan.to, &plan.by].into_iter().for_each(&mut add);
-            }
-        }
-        let settings = job.integrals.iter().flat_map(|integral| &integral.settings);
-        settings.for_each(|setting| add(&setting.expr));
-        job.outputs.iter().for_each(|output| add(&output.expr));
-        job.required.incidentpol.iter().for_each(|(_, expr)| add(expr));
-        slots.extend(job.colour.iter().flat_map(ColourSection::reads));
+        let outputs = job.plan.outputs.iter().map(|output| &output.expr);
+        slots.extend(outputs.chain(&job.plan.expressions).flat_map(Expr::slots));
+        slots.extend(job.plan.colour.iter().flat_map(ColourSection::reads));
         slots.extend(cells(job));
-        Self { slots, looped: job.loops.iter().flat_map(LoopPlan::entries).collect() }
+        Self { slots, looped: job.plan.loops.iter().flat_map(LoopPlan::entries).collect() }
     }
 
     fn has(&self, slot: u32, name: &str) -> bool {
@@ -91,7 +83,7 @@ impl Read {
 /// Variables that cells of LIST files read.
 fn cells(job: &Job) -> BTreeSet<u32> {
     let mut found = BTreeSet::new();
-    for each in &job.loops {
+    for each in &job.plan.loops {
         let LoopPlan::List(plan) = each else { continue };
         let columns = plan.columns.iter().enumerate().filter(|(_, column)| !column.is_text);
         for (at, _) in columns {
@@ -101,7 +93,7 @@ fn cells(job: &Job) -> BTreeSet<u32> {
                     continue;
                 }
                 if let Ok(expr) = Expr::compile(cell, dialect(job.options.mode)) {
-                    found.extend(expr.names().iter().filter_map(|name| job.names.find(name)));
+                    found.extend(expr.names().iter().filter_map(|name| job.plan.names.find(name)));
                 }
             }
         }

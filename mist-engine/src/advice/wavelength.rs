@@ -13,19 +13,19 @@ const LONGEST_UM: f64 = 100.0;
 
 /// The wavelengths of the model and of the section COLOR.
 pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
-    let model = job.entries.iter().filter_map(|entry| {
-        let name = entry.parameter.as_deref()?;
+    let model = job.plan.entries.iter().filter_map(|entry| {
+        let name = entry.parameter_name()?;
         if name.rsplit('.').next() != Some("lambda") {
             return None;
         }
-        let text = &job.program.variables[entry.variable].value;
+        let text = &job.plan.program.variables[entry.variable].value;
         let source = match entry.slot {
             Some(slot) => Source::Slot(slot),
             None => Source::Number(whole_number(text.as_str())?),
         };
         Some(reading(name.to_owned(), text, source))
     });
-    let colour = job.colour.as_ref().and_then(|colour| {
+    let colour = job.plan.colour.as_ref().and_then(|colour| {
         let placed = &colour.wavelength;
         Some(reading("wavelength".into(), placed.text.as_ref()?, Source::Expr(&placed.expr)))
     });

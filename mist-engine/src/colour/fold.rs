@@ -26,14 +26,16 @@ struct Gathered {
 /// The spectra of a run.
 pub(crate) struct Fold<'a> {
     section: &'a ColourSection,
+    /// The incident light of the table: I, Q, U, V.
+    incident: [f64; 4],
     rows: Vec<Gathered>,
     /// The row of each combination of loops that are not folded.
     places: HashMap<Vec<u64>, usize>,
 }
 
 impl<'a> Fold<'a> {
-    pub(crate) fn new(section: &'a ColourSection) -> Self {
-        Self { section, rows: Vec::new(), places: HashMap::new() }
+    pub(crate) fn new(section: &'a ColourSection, incident: [f64; 4]) -> Self {
+        Self { section, incident, rows: Vec::new(), places: HashMap::new() }
     }
 
     /// Adds a step whose outputs were just computed.
@@ -121,7 +123,7 @@ impl<'a> Fold<'a> {
         Ok(ColourTable {
             material: section.material.clone(),
             quantity: format!("{} {}", settings.quantity.name(), settings.quantity.unit()),
-            incident: section.incident,
+            incident: self.incident,
             frame: section.frame.clone(),
             interpolation: interpolation(&grid, settings.outside),
             wavelengths,

@@ -17,10 +17,9 @@ use spectra::{
 use crate::{
     DataFiles,
     fault::placed,
-    job::{OutputPlan, VariableEntry},
+    plan::{LoopPlan, OutputPlan, VariableEntry},
     quirk::dialect,
-    scope::SlotNames,
-    sweep::LoopPlan,
+    slots::SlotNames,
 };
 
 /// The section COLOR of a compiled program.
@@ -32,7 +31,6 @@ pub struct ColourSection {
     /// Per loop, the first declared first: what it does to the table.
     pub(crate) roles: Vec<LoopRole>,
     pub(crate) settings: ColourSettings,
-    pub(crate) incident: [f64; 4],
     pub(crate) frame: String,
     pub(crate) patch: String,
     pub(crate) material: String,
@@ -68,7 +66,6 @@ pub(crate) struct ColourContext<'a> {
     pub(crate) library: &'a DataFiles,
     pub(crate) job: &'a str,
     pub(crate) basis: &'a str,
-    pub(crate) incident: Option<[f64; 4]>,
 }
 
 impl ColourSection {
@@ -128,7 +125,6 @@ impl SectionCompiler<'_> {
             spectrum,
             roles,
             settings: settings.expect("wrong settings are faults"),
-            incident: self.context.incident.unwrap_or([1.0, 0.0, 0.0, 0.0]),
             frame: self.context.basis.to_owned(),
             patch: text(ColourKey::Patch).unwrap_or_else(|| "point".into()),
             material: text(ColourKey::Material).unwrap_or_else(|| self.context.job.to_owned()),

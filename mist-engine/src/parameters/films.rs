@@ -5,7 +5,7 @@ use std::hash::{Hash, Hasher};
 use mist_format::optics::{self, OpticsError, StackText};
 use scattering::stack::Film;
 
-use super::{ParameterContext, SetError, index::IndexState, source::TableSource};
+use super::{ParameterContext, ParameterInput, SetError, index::IndexState, source::TableSource};
 
 /// Films, the one next to the substrate first.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +21,15 @@ impl Hash for FilmsState {
     }
 }
 
+impl PartialEq for FilmsState {
+    fn eq(&self, other: &Self) -> bool {
+        // Files do not change during a run: equal texts are equal films.
+        self.texts == other.texts
+    }
+}
+
+impl Eq for FilmsState {}
+
 impl FilmsState {
     /// Reads films, or the name of a file with films; nothing is no film.
     pub(crate) fn read(text: &str, context: &ParameterContext<'_>) -> Result<Self, SetError> {
@@ -33,11 +42,11 @@ impl FilmsState {
     pub(crate) fn set(
         &mut self,
         name: &str,
-        text: &str,
+        input: ParameterInput<'_>,
         context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
         match name {
-            "grow" => self.grow(text, context),
+            "grow" => self.grow(&input.to_text(), context),
             "wash" => {
                 *self = Self::default();
                 Ok(())

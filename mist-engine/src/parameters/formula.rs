@@ -18,6 +18,14 @@ pub(crate) struct FormulaState {
     function: spec::FormulaFn,
 }
 
+impl PartialEq for FormulaState {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
+    }
+}
+
+impl Eq for FormulaState {}
+
 impl fmt::Debug for FormulaState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)

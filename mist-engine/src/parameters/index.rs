@@ -8,7 +8,7 @@ use std::{
 use mist_format::{Dialect, number::whole_number, optics::IndexText};
 use scattering::optics::{RealFunction, RefractiveIndex};
 
-use super::{ParameterContext, SetError, source::TableSource, table::TableState};
+use super::{ParameterContext, ParameterInput, SetError, source::TableSource, table::TableState};
 use crate::quirk::Quirk;
 
 /// An index of refraction: one table for n, one for k.
@@ -30,13 +30,30 @@ struct Held {
     k: f64,
 }
 
+impl Held {
+    fn bits(self) -> [u64; 3] {
+        [self.lambda, self.n, self.k].map(f64::to_bits)
+    }
+}
+
 impl Hash for IndexState {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.n.hash(state);
         self.k.hash(state);
-        self.held.map(|held| [held.lambda, held.n, held.k].map(f64::to_bits)).hash(state);
+        self.held.map(Held::bits).hash(state);
     }
 }
+
+impl PartialEq for IndexState {
+    fn eq(&self, other: &Self) -> bool {
+        self.n == other.n
+            && self.k == other.k
+            && self.held.map(Held::bits) == other.held.map(Held::bits)
+            && self.misread == other.misread
+    }
+}
+
+impl Eq for IndexState {}
 
 impl IndexState {
     /// The default that the registry declares: a number or `(n,k)`.
@@ -47,6 +64,16 @@ impl IndexState {
         Self {
             n: TableState::of_values(text, values.clone(), 2),
             k: TableState::of_values(text, values, 3),
+            held: None,
+            misread: false,
+        }
+    }
+
+    /// The same n + ik at every wavelength.
+    pub(crate) fn of_numbers(n: f64, k: f64) -> Self {
+        Self {
+            n: TableState::of_numbers(&[n, k], 2),
+            k: TableState::of_numbers(&[n, k], 3),
             held: None,
             misread: false,
         }
@@ -74,7 +101,7 @@ impl IndexState {
     pub(crate) fn set(
         &mut self,
         path: &str,
-        text: &str,
+        input: ParameterInput<'_>,
         context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
         let (name, rest) = path.split_once('.').map_or((path, None), |(n, r)| (n, Some(r)));
@@ -85,15 +112,15 @@ impl IndexState {
         };
         match (part, rest) {
             (Some(part), None) => {
-                part.replace(text, context)?;
+                part.replace(input, context)?;
                 self.held = None;
                 Ok(())
             }
-            (Some(part), Some(rest)) => part.set(rest, text, context),
+            (Some(part), Some(rest)) => part.set(rest, input, context),
             (None, _) => {
                 self.hold(context);
-                self.n.set(path, text, context)?;
-                self.k.set(path, text, context)
+                self.n.set(path, input, context)?;
+                self.k.set(path, input, context)
             }
         }
     }

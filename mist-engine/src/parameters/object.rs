@@ -2,10 +2,12 @@
 
 use std::hash::{Hash, Hasher};
 
-use mist_format::{number::general, suggestion::did_you_mean};
+use mist_format::suggestion::did_you_mean;
 use scattering::{Class, Mode, ParameterNode, spec::SharedNotices};
 
-use super::{ParameterContext, SetError, state::ParameterState};
+use super::{
+    ParameterContext, ParameterInput, SetError, path::RelativePath, state::ParameterState,
+};
 
 /// Parameters that every class of NIST's library takes and that change nothing here.
 const IGNORED: &[&str] = &["recalc", "quiet"];
@@ -25,6 +27,14 @@ impl Hash for ObjectState {
     }
 }
 
+impl PartialEq for ObjectState {
+    fn eq(&self, other: &Self) -> bool {
+        self.class.name == other.class.name && self.slots == other.slots
+    }
+}
+
+impl Eq for ObjectState {}
+
 impl ObjectState {
     /// Every parameter at its default.
     pub(crate) fn new(class: &'static Class) -> Self {
@@ -35,16 +45,13 @@ impl ObjectState {
     /// evaluated.
     pub(crate) fn set(
         &mut self,
-        path: &str,
-        text: &str,
+        path: RelativePath<'_>,
+        input: ParameterInput<'_>,
         context: &mut ParameterContext<'_>,
         before: Option<&Self>,
     ) -> Result<(), SetError> {
-        let (name, rest) = match path.split_once('.') {
-            Some((name, rest)) => (name, Some(rest)),
-            None => (path, None),
-        };
-        if rest == Some("") {
+        let (name, rest) = (path.name(), path.rest());
+        if rest.is_some_and(|rest| rest.text().is_empty()) {
             return Err(SetError::name(format!("the sub-parameter of {name} is missing")));
         }
         if IGNORED.contains(&name) && rest.is_none() {
@@ -54,11 +61,11 @@ impl ObjectState {
         if let Some(lambda) = before.and_then(Self::wavelength) {
             context.evaluated_at = Some(lambda);
         }
-        let (at, param) = self.class.parameter(name).ok_or_else(|| self.unknown(name))?;
+        let (at, param) = path.find_in(self.class).ok_or_else(|| self.unknown(name))?;
         let slot_before = before.map(|before| &before.slots[at]);
         match rest {
-            Some(rest) => self.slots[at].set_below(param, rest, text, context, slot_before),
-            None => self.slots[at].set(param, text, context),
+            Some(rest) => self.slots[at].set_below(param, rest, input, context, slot_before),
+            None => self.slots[at].set(param, input, context),
         }
     }
 
@@ -71,10 +78,9 @@ impl ObjectState {
     }
 
     /// Whether `path` names a parameter of this object or of one in it.
-    pub(crate) fn owns(&self, path: &str) -> bool {
-        let (name, rest) = path.split_once('.').map_or((path, None), |(n, r)| (n, Some(r)));
-        let Some((at, _)) = self.class.parameter(name) else { return false };
-        match (rest, &self.slots[at]) {
+    pub(crate) fn owns(&self, path: RelativePath<'_>) -> bool {
+        let Some((at, _)) = path.find_in(self.class) else { return false };
+        match (path.rest(), &self.slots[at]) {
             (None, _) => true,
             (Some(rest), ParameterState::Member(object)) => object.owns(rest),
             (Some(_), _) => false,
@@ -92,8 +98,7 @@ impl ObjectState {
             match slot {
                 ParameterState::Member(object) => object.edit().set_wavelength(lambda),
                 ParameterState::Number(value) if param.name == "lambda" => {
-                    // The digits that a program would send.
-                    *value = general(lambda, 16).parse().unwrap_or(lambda);
+                    *value = lambda;
                 }
                 _ => {}
             }

@@ -1,4 +1,4 @@
-//! A part of the parameters that states of them share.
+//! Immutable parts of the parameters that several states share.
 
 use std::{
     hash::{Hash, Hasher},
@@ -6,32 +6,42 @@ use std::{
     sync::{Arc, OnceLock},
 };
 
-use super::Fingerprint;
+use rustc_hash::FxHasher;
 
-/// A value of which clones are cheap, and its digest once somebody wanted it.
+/// A value with cheap clones that is copied when it is changed, and its hash, computed once.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Persistent<T>(Arc<Inner<T>>);
 
 #[derive(Clone, Debug, Default)]
 struct Inner<T> {
     value: T,
-    digest: OnceLock<Fingerprint>,
+    hash: OnceLock<u64>,
 }
 
 impl<T: Clone + Hash> Persistent<T> {
     pub(crate) fn new(value: T) -> Self {
-        Self(Arc::new(Inner { value, digest: OnceLock::new() }))
+        Self(Arc::new(Inner { value, hash: OnceLock::new() }))
     }
 
-    /// The value to be changed; what others share stays.
+    /// The value for a change; clones of `self` keep the old one.
     pub(crate) fn edit(&mut self) -> &mut T {
         let inner = Arc::make_mut(&mut self.0);
-        inner.digest = OnceLock::new();
+        inner.hash = OnceLock::new();
         &mut inner.value
     }
 
-    pub(crate) fn digest(&self) -> Fingerprint {
-        *self.0.digest.get_or_init(|| Fingerprint::of(&self.0.value))
+    /// The hash of the value: equal values have equal hashes.
+    pub(crate) fn hash_code(&self) -> u64 {
+        *self.0.hash.get_or_init(|| {
+            let mut hasher = FxHasher::default();
+            self.0.value.hash(&mut hasher);
+            hasher.finish()
+        })
+    }
+
+    /// Whether both share their memory.
+    pub(crate) fn is_same_as(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
@@ -45,23 +55,32 @@ impl<T> Deref for Persistent<T> {
 
 impl<T: Clone + Hash> Hash for Persistent<T> {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        self.digest().hash(state);
+        state.write_u64(self.hash_code());
     }
 }
+
+impl<T: Clone + Hash + Eq> PartialEq for Persistent<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_same_as(other)
+            || (self.hash_code() == other.hash_code() && self.0.value == other.0.value)
+    }
+}
+
+impl<T: Clone + Hash + Eq> Eq for Persistent<T> {}
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_changed_value_has_another_digest_and_leaves_its_clones_alone() {
+    fn a_change_leaves_clones_alone_and_renews_the_hash() {
         let first = Persistent::new("a".to_owned());
         let mut second = first.clone();
-        assert_eq!(first.digest(), second.digest());
+        assert_eq!(first, second);
         second.edit().push('b');
-        assert_ne!(first.digest(), second.digest());
+        assert_ne!((&first, first.hash_code()), (&second, second.hash_code()));
         assert_eq!((first.as_str(), second.as_str()), ("a", "ab"));
         second.edit().pop();
-        assert_eq!(first.digest(), second.digest());
+        assert_eq!((&first, first.hash_code()), (&second, second.hash_code()));
     }
 }

@@ -1,6 +1,9 @@
 //! Where the values of a table come from: constants, formulas, columns of files.
 
-use std::sync::Arc;
+use std::{
+    hash::{Hash, Hasher},
+    sync::Arc,
+};
 
 use mist_format::{
     expr::Expr,
@@ -33,6 +36,28 @@ pub(crate) struct Interpolation {
     /// Parameters of a formula file that differ from the file's own values.
     pub(crate) parameters: Vec<(String, f64)>,
 }
+
+impl Interpolation {
+    /// The parameters with the bits of their values.
+    fn bits(&self) -> impl Iterator<Item = (&str, u64)> {
+        self.parameters.iter().map(|(name, value)| (name.as_str(), value.to_bits()))
+    }
+}
+
+impl Hash for Interpolation {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.axis as u8, self.rise as u8).hash(state);
+        self.bits().for_each(|parameter| parameter.hash(state));
+    }
+}
+
+impl PartialEq for Interpolation {
+    fn eq(&self, other: &Self) -> bool {
+        self.axis == other.axis && self.rise == other.rise && self.bits().eq(other.bits())
+    }
+}
+
+impl Eq for Interpolation {}
 
 impl TableSource {
     /// The source that a table's text names, and the column it asks for.

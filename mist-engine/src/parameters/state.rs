@@ -7,7 +7,7 @@ use std::{
 };
 
 use mist_format::{
-    number::{integer_prefix, number_prefix, whole_number},
+    number::{integer_prefix, number_prefix, reread, whole_number},
     suggestion::did_you_mean,
 };
 use scattering::{
@@ -16,8 +16,9 @@ use scattering::{
 };
 
 use super::{
-    ParameterContext, SetError, films::FilmsState, formula::FormulaState, index::IndexState,
-    object::ObjectState, persistent::Persistent, table::TableState,
+    ParameterContext, ParameterInput, SetError, films::FilmsState, formula::FormulaState,
+    index::IndexState, object::ObjectState, path::RelativePath, persistent::Persistent,
+    table::TableState,
 };
 use crate::quirk::Quirk;
 
@@ -58,6 +59,25 @@ impl Hash for ParameterState {
     }
 }
 
+impl PartialEq for ParameterState {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
+            (Self::Integer(a), Self::Integer(b)) => a == b,
+            (Self::Text(a), Self::Text(b)) => a == b,
+            (Self::File { name: a, .. }, Self::File { name: b, .. }) => a == b,
+            (Self::Formula(a), Self::Formula(b)) => a == b,
+            (Self::Index(a), Self::Index(b)) => a == b,
+            (Self::Table(a), Self::Table(b)) => a == b,
+            (Self::Films(a), Self::Films(b)) => a == b,
+            (Self::Member(a), Self::Member(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+impl Eq for ParameterState {}
+
 impl ParameterState {
     /// The default that the registry declares.
     pub(crate) fn default_of(param: &Parameter) -> Self {
@@ -84,15 +104,62 @@ impl ParameterState {
     pub(crate) fn set(
         &mut self,
         param: &Parameter,
+        input: ParameterInput<'_>,
+        context: &ParameterContext<'_>,
+    ) -> Result<(), SetError> {
+        if let Self::Table(table) = self
+            && input != ParameterInput::Text("default")
+        {
+            return table.edit().replace(input, context);
+        }
+        match input {
+            ParameterInput::Text(text) => self.set_text(param, text, context),
+            ParameterInput::Numbers(values) => match Self::of_numbers(param, values, context) {
+                Some(state) => {
+                    *self = state;
+                    Ok(())
+                }
+                None => self.set_text(param, &input.to_text(), context),
+            },
+        }
+    }
+
+    /// The state that numbers give without a text; none if there is no such state, or if NIST's
+    /// program reads the numbers from a text in its own way.
+    fn of_numbers(
+        param: &Parameter,
+        values: &[f64],
+        context: &ParameterContext<'_>,
+    ) -> Option<Self> {
+        match (param.kind, values) {
+            (ParameterKind::Number, [x]) if context.mode == Mode::Compat => {
+                reread(*x).map(Self::Number)
+            }
+            _ if !context.keeps_bits(values) => None,
+            (ParameterKind::Number, [x]) => Some(Self::Number(*x)),
+            (ParameterKind::Integer, [x]) => {
+                let whole = *x as i32;
+                (f64::from(whole) == *x).then_some(Self::Integer(whole))
+            }
+            (ParameterKind::Index, [n]) => {
+                Some(Self::Index(Persistent::new(IndexState::of_numbers(*n, 0.0))))
+            }
+            (ParameterKind::Index, [n, k]) => {
+                Some(Self::Index(Persistent::new(IndexState::of_numbers(*n, *k))))
+            }
+            _ => None,
+        }
+    }
+
+    fn set_text(
+        &mut self,
+        param: &Parameter,
         text: &str,
         context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
         if text == "default" && !self.ignores_default(context) {
             *self = Self::default_of(param);
             return Ok(());
-        }
-        if let Self::Table(table) = self {
-            return table.edit().replace(text, context);
         }
         *self = match param.kind {
             ParameterKind::Number => Self::Number(number(text, context.mode)?),
@@ -128,8 +195,8 @@ impl ParameterState {
     pub(crate) fn set_below(
         &mut self,
         param: &Parameter,
-        rest: &str,
-        text: &str,
+        rest: RelativePath<'_>,
+        input: ParameterInput<'_>,
         context: &mut ParameterContext<'_>,
         before: Option<&Self>,
     ) -> Result<(), SetError> {
@@ -140,14 +207,15 @@ impl ParameterState {
                     _ => None,
                 };
                 context.is_nested = true;
-                object.edit().set(rest, text, context, before)
+                object.edit().set(rest, input, context, before)
             }
-            Self::Index(index) => index.edit().set(rest, text, context),
-            Self::Table(table) => table.edit().set(rest, text, context),
-            Self::Films(films) => films.edit().set(rest, text, context),
+            Self::Index(index) => index.edit().set(rest.text(), input, context),
+            Self::Table(table) => table.edit().set(rest.text(), input, context),
+            Self::Films(films) => films.edit().set(rest.text(), input, context),
             _ => Err(SetError::name(format!(
-                "{} is not an object: no sub-parameter {rest} is allowed",
-                param.name
+                "{} is not an object: no sub-parameter {} is allowed",
+                param.name,
+                rest.text()
             ))),
         }
     }
@@ -211,13 +279,8 @@ fn integer(text: &str, mode: Mode) -> Result<i32, SetError> {
 
 /// The class called `name`, at or below `base`.
 fn member(name: &str, family: Family, base: &str) -> Result<&'static scattering::Class, SetError> {
-    let choices: Vec<&str> = family
-        .classes()
-        .iter()
-        .map(|class| class.name)
-        .filter(|choice| spec::is_below(choice, base))
-        .collect();
-    let found = spec::find_class(name).filter(|class| choices.contains(&class.name));
+    let found = family.classes().into_iter().find(|class| class.name == name);
+    let found = found.filter(|class| spec::is_below(class.name, base));
     found.ok_or_else(|| {
         let abstract_class = name == base || spec::ABSTRACT.iter().any(|(this, _)| *this == name);
         let problem = if abstract_class {
@@ -225,6 +288,8 @@ fn member(name: &str, family: Family, base: &str) -> Result<&'static scattering:
         } else {
             format!("there is no {base} called {name:?}")
         };
+        let classes = family.classes().into_iter().map(|class| class.name);
+        let choices: Vec<&str> = classes.filter(|choice| spec::is_below(choice, base)).collect();
         let all = format!("choose one of {}", choices.join(", "));
         SetError::value(problem).help(all).help_if(did_you_mean(name, choices))
     })

@@ -1,6 +1,7 @@
 //! The state of a parameter that holds a function of one variable.
 
 use std::{
+    fmt,
     hash::{Hash, Hasher},
     sync::Arc,
 };
@@ -9,14 +10,23 @@ use mist_format::number::{number_prefix, whole_number};
 use scattering::optics::{AbscissaScale, RealFunction, TableInterpolation};
 
 use super::{
-    ParameterContext, SetError,
+    ParameterContext, ParameterInput, SetError,
     source::{Interpolation, TableSource},
 };
+
+/// What a table was made from.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum TableOrigin {
+    /// A text; it names the source, for files do not change during a run.
+    Text(Arc<str>),
+    /// The bits of numbers.
+    Numbers(Vec<u64>),
+}
 
 /// A table, its source, and how it is interpolated.
 #[derive(Clone, Debug)]
 pub(crate) struct TableState {
-    text: Arc<str>,
+    origin: TableOrigin,
     source: TableSource,
     column: usize,
     reading: Interpolation,
@@ -25,15 +35,19 @@ pub(crate) struct TableState {
 
 impl Hash for TableState {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        // The text names the source: files do not change during a run.
-        self.text.hash(state);
+        self.origin.hash(state);
         self.column.hash(state);
-        (self.reading.axis as u8, self.reading.rise as u8).hash(state);
-        for (name, value) in &self.reading.parameters {
-            (name, value.to_bits()).hash(state);
-        }
+        self.reading.hash(state);
     }
 }
+
+impl PartialEq for TableState {
+    fn eq(&self, other: &Self) -> bool {
+        self.origin == other.origin && self.column == other.column && self.reading == other.reading
+    }
+}
+
+impl Eq for TableState {}
 
 impl TableState {
     /// The default that the registry declares: a number.
@@ -44,10 +58,15 @@ impl TableState {
 
     /// A constant with several columns.
     pub(crate) fn of_values(text: &str, values: Vec<f64>, column: usize) -> Self {
+        Self { origin: TableOrigin::Text(text.into()), ..Self::of_numbers(&values, column) }
+    }
+
+    /// A constant with several columns, from numbers; a missing column is zero.
+    pub(crate) fn of_numbers(values: &[f64], column: usize) -> Self {
         let value = values.get(column - 2).copied().unwrap_or(0.0);
         Self {
-            text: text.into(),
-            source: TableSource::Constant(values),
+            origin: TableOrigin::Numbers(values.iter().map(|x| x.to_bits()).collect()),
+            source: TableSource::Constant(values.to_vec()),
             column,
             reading: Interpolation::default(),
             table: RealFunction::constant(value),
@@ -62,21 +81,28 @@ impl TableState {
     ) -> Result<Self, SetError> {
         let reading = Interpolation::default();
         let table = source.table(column, &reading, context.library)?;
-        Ok(Self { text: text.into(), source, column, reading, table })
+        Ok(Self { origin: TableOrigin::Text(text.into()), source, column, reading, table })
     }
 
     /// Replaces the source; the interpolation stays, as in NIST's library.
     pub(crate) fn replace(
         &mut self,
-        text: &str,
+        input: ParameterInput<'_>,
         context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
-        let (source, asked) = TableSource::of_table(text, context)?;
         let (axis, rise) = (self.reading.axis, self.reading.rise);
         let reading = Interpolation { axis, rise, parameters: Vec::new() };
+        let text = match input {
+            ParameterInput::Numbers(values) if context.keeps_bits(values) => {
+                *self = Self { reading, ..Self::of_numbers(values, 2) };
+                return Ok(());
+            }
+            input => input.to_text(),
+        };
+        let (source, asked) = TableSource::of_table(&text, context)?;
         let column = asked.unwrap_or(2);
         let table = source.table(column, &reading, context.library)?;
-        *self = Self { text: text.into(), source, column, reading, table };
+        *self = Self { origin: TableOrigin::Text((*text).into()), source, column, reading, table };
         Ok(())
     }
 
@@ -88,27 +114,45 @@ impl TableState {
     pub(crate) fn set(
         &mut self,
         name: &str,
-        text: &str,
+        input: ParameterInput<'_>,
         context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
+        let text = &*input.to_text();
         if name.eq_ignore_ascii_case("interpolationx") {
             self.reading.axis = axis(text)?;
         } else if name.eq_ignore_ascii_case("interpolationy") {
             self.reading.rise = rise(text)?;
         } else if self.source.parameters().contains(&name) {
-            let value = number_prefix(text.as_bytes())
-                .value
-                .ok_or_else(|| SetError::value(format!("{text:?} is not a number")))?;
+            let value = match input {
+                ParameterInput::Numbers([x]) if context.keeps_bits(&[*x]) => Some(*x),
+                _ => number_prefix(text.as_bytes()).value,
+            };
+            let value =
+                value.ok_or_else(|| SetError::value(format!("{text:?} is not a number")))?;
             self.reading.parameters.retain(|(known, _)| known != name);
             self.reading.parameters.push((name.to_owned(), value));
         } else {
             let own = self.source.parameters().join(", ");
             let own = if own.is_empty() { String::new() } else { format!(", {own}") };
-            return Err(SetError::name(format!("the table {} has no parameter {name}", self.text))
-                .help(format!("it has interpolationx, interpolationy{own}")));
+            let problem = format!("the table {} has no parameter {name}", self.origin);
+            return Err(
+                SetError::name(problem).help(format!("it has interpolationx, interpolationy{own}"))
+            );
         }
         self.table = self.source.table(self.column, &self.reading, context.library)?;
         Ok(())
+    }
+}
+
+impl fmt::Display for TableOrigin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(text) => f.write_str(text),
+            Self::Numbers(bits) => {
+                let values: Vec<f64> = bits.iter().copied().map(f64::from_bits).collect();
+                f.write_str(&ParameterInput::Numbers(&values).to_text())
+            }
+        }
     }
 }
 

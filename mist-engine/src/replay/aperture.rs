@@ -9,7 +9,7 @@ use scattering::Stokes;
 
 use crate::{
     fault::{Fault, fault},
-    job::{ApertureParameter, IntegralPlan},
+    plan::{ApertureParameter, IntegralPlan},
     region::Region,
     sampling::SamplingRule,
     step::StepIntegral,

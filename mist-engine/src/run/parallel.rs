@@ -6,12 +6,12 @@
 
 use rayon::prelude::*;
 
-use super::{BLOCK_EVALUATIONS, StepReader, at_step};
+use super::{BLOCK_EVALUATIONS, StepReader};
 use crate::{
     Failure, Job,
+    fault::at_step,
     journal::StepResult,
     output::{Outputs, TableLine},
-    replay::alone::Alone,
     step::Step,
 };
 
@@ -49,8 +49,7 @@ pub(super) struct ParallelReplay<'a> {
 impl<'a> ParallelReplay<'a> {
     /// Whether the steps behind `reader` are independent, and there are threads for them.
     pub(super) fn are_possible(reader: &StepReader<'a>) -> bool {
-        let holds = |alone: Alone<'_>| alone.holds_for(reader.replay.parameters());
-        rayon::current_num_threads() > 1 && Alone::new(reader.job).is_some_and(holds)
+        rayon::current_num_threads() > 1 && reader.steps_are_independent()
     }
 
     /// One worker per thread for the steps behind `reader`, which has read a first block of `count`
@@ -106,10 +105,13 @@ impl<'a> ParallelReplay<'a> {
 }
 
 impl<'a> StepBatch<'a> {
-    /// An empty batch for `workers` workers.
-    pub(super) fn new(job: &'a Job, workers: usize) -> Self {
-        let empty =
-            || WorkerBatch { steps: Vec::new(), outputs: Outputs::new(job), lines: Vec::new() };
+    /// An empty batch for `workers` workers; `formats` as for [`Outputs::new`].
+    pub(super) fn new(job: &'a Job, workers: usize, formats: bool) -> Self {
+        let empty = || WorkerBatch {
+            steps: Vec::new(),
+            outputs: Outputs::new(job, formats),
+            lines: Vec::new(),
+        };
         Self((0..workers).map(|_| empty()).collect())
     }
 

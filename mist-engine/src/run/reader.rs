@@ -2,13 +2,8 @@
 
 use std::ops::Range;
 
-use super::{BLOCK_EVALUATIONS, at_step};
-use crate::{
-    Control, Failure, Job,
-    replay::{Replay, alone::Alone},
-    sampling::Layout,
-    step::Step,
-};
+use super::BLOCK_EVALUATIONS;
+use crate::{Control, Failure, Job, fault::at_step, replay::Replay, sampling::Layout, step::Step};
 
 /// Evaluations of an adaptive integral, about; it may be a thousand times more.
 const ADAPTIVE_EVALUATIONS: f64 = 2e4;
@@ -70,7 +65,7 @@ impl<'a> StepReader<'a> {
             } else if let Some(step) = block.last() {
                 self.cost += price(self.job, step)?;
                 // Computed here, in parallel by the workers.
-                step.parameters.fingerprint();
+                step.parameters.hash_code();
             }
         }
         Ok(())
@@ -78,9 +73,17 @@ impl<'a> StepReader<'a> {
 
     /// Goes from the beginning to step `to` if that is possible without making the steps before.
     pub(super) fn approach(&mut self, to: u64) -> Result<(), Failure> {
-        let Some(alone) = Alone::new(self.job).filter(|_| to > 1) else { return Ok(()) };
+        if self.job.graph.independence.is_none() || to <= 1 {
+            return Ok(());
+        }
         self.skip_to(1)?;
-        if alone.holds_for(self.replay.parameters()) { self.skip_to(to) } else { Ok(()) }
+        if self.steps_are_independent() { self.skip_to(to) } else { Ok(()) }
+    }
+
+    /// Whether the replay, behind its first step, may go on at any step.
+    pub(super) fn steps_are_independent(&self) -> bool {
+        let independence = self.job.graph.independence.as_ref();
+        independence.is_some_and(|all| all.holds_for(self.replay.parameters()))
     }
 
     /// Goes on to step `to` without making the steps before it.
@@ -101,7 +104,7 @@ impl<'a> StepReader<'a> {
 pub(super) fn price(job: &Job, step: &Step) -> Result<f64, Failure> {
     let limit = job.options.limits.directions;
     let mut cost = 0.0;
-    for (integral, plan) in step.integrals.iter().zip(&job.integrals) {
+    for (integral, plan) in step.integrals.iter().zip(&job.plan.integrals) {
         let Some((plane, _)) = integral.rule.plane() else {
             cost += ADAPTIVE_EVALUATIONS;
             continue;

@@ -3,98 +3,44 @@
 //! The value is accumulated: a, b and s are evaluated whenever they are used, with the
 //! variables of the step that just ended. The first value is never tested.
 
-use mist_format::{
-    Diagnostic,
-    expr::Expr,
-    number,
-    program::{ForLoop, SourceText},
-};
+use mist_format::{Diagnostic, number};
+use scattering::Mode;
 
 use super::{EntryContent, LoopContext, LoopWrite};
-use crate::{
-    fault::{Fault, placed},
-    quirk::Quirk,
-    scope::Memo,
-    step::LoopCell,
-};
+use crate::{fault::Fault, plan::ForPlan, quirk::Quirk, step::LoopCell};
 
-/// A FOR loop as compiled.
-pub(crate) struct ForPlan {
-    pub(crate) statement: ForLoop,
-    /// The entry of VARIABLES that it writes.
-    pub(crate) entry: usize,
-    /// Name of its column.
-    pub(crate) title: String,
-    /// Whether the entry is a text for the model, shown as it is written.
-    pub(crate) is_text: bool,
-    pub(crate) from: Expr,
-    pub(crate) to: Expr,
-    pub(crate) by: Expr,
-    /// Whether a bound reads results of earlier steps, so that it may come to an end later.
-    pub(crate) fed_back: bool,
-}
-
-/// Where a FOR loop stands.
+/// The position of a FOR loop.
 pub(crate) struct ForState {
     value: f64,
     fraction: f64,
-    /// How often it was advanced since it was started.
+    /// Number of advances since the loop was started.
     at: usize,
     cell: LoopCell,
-    /// What was made of the first values: a loop that is started again mostly has the same ones.
-    made: Vec<PreparedValue>,
-    bounds: LoopBounds,
+    /// The memo of the first values, by number of advances: a loop that starts again mostly has
+    /// the same ones.
+    prepared: Vec<PreparedValue>,
 }
 
-/// What is made of a value.
+/// The texts and numbers made of a value.
 #[derive(Clone)]
 struct PreparedValue {
-    /// Of the value.
+    /// The bits of the value.
     bits: u64,
-    /// What is written into the entry.
     content: EntryContent,
-    /// What is shown.
     cell: LoopCell,
 }
 
-/// What the expressions of a, b and s gave last.
-#[derive(Default)]
-struct LoopBounds {
-    from: Option<Memo<f64>>,
-    to: Option<Memo<f64>>,
-    by: Option<Memo<f64>>,
-}
-
-/// Values of which a loop keeps what was made.
-const KEPT: usize = 1 << 12;
-
-fn bound(
-    known: &mut Option<Memo<f64>>,
-    (text, expr): (&SourceText, &Expr),
-    context: &mut LoopContext<'_>,
-) -> Result<f64, Fault> {
-    if let Some(known) = known
-        && known.holds(context.scope, expr.slots())
-    {
-        return Ok(known.value);
-    }
-    let value = context.scope.number(expr, context.stack).map_err(|error| {
-        let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
-        placed(text, error.diagnostic(known))
-    })?;
-    *known = Some(Memo::new(context.scope, value));
-    Ok(value)
-}
+/// The largest number of prepared values of one loop.
+const PREPARED: usize = 1 << 12;
 
 impl ForState {
-    pub(crate) fn start(plan: &ForPlan, context: &mut LoopContext<'_>) -> Result<Self, Fault> {
+    pub(crate) fn start(plan: &ForPlan, context: &mut LoopContext<'_, '_>) -> Result<Self, Fault> {
         let mut state = Self {
             value: f64::NAN,
             fraction: 0.0,
             at: 0,
             cell: LoopCell::Text("".into()),
-            made: Vec::new(),
-            bounds: LoopBounds::default(),
+            prepared: Vec::new(),
         };
         state.restart(plan, context)?;
         Ok(state)
@@ -104,9 +50,9 @@ impl ForState {
     pub(crate) fn restart(
         &mut self,
         plan: &ForPlan,
-        context: &mut LoopContext<'_>,
+        context: &mut LoopContext<'_, '_>,
     ) -> Result<(), Fault> {
-        self.value = bound(&mut self.bounds.from, (&plan.statement.from, &plan.from), context)?;
+        self.value = context.values.number(plan.from, &plan.statement.from)?;
         (self.fraction, self.at) = (0.0, 0);
         Ok(())
     }
@@ -115,13 +61,13 @@ impl ForState {
     pub(crate) fn advance(
         &mut self,
         plan: &ForPlan,
-        context: &mut LoopContext<'_>,
+        context: &mut LoopContext<'_, '_>,
     ) -> Result<bool, Fault> {
         let before = self.value;
-        let by = bound(&mut self.bounds.by, (&plan.statement.by, &plan.by), context)?;
+        let by = context.values.number(plan.by, &plan.statement.by)?;
         self.value += by;
-        let from = bound(&mut self.bounds.from, (&plan.statement.from, &plan.from), context)?;
-        let to = bound(&mut self.bounds.to, (&plan.statement.to, &plan.to), context)?;
+        let from = context.values.number(plan.from, &plan.statement.from)?;
+        let to = context.values.number(plan.to, &plan.statement.to)?;
         self.fraction = (self.value - from) / (to - from);
         let inside = if Quirk::LostNegativeEnd.applies_in(context.mode) {
             // The factors are NIST's; a negative end moves the wrong way.
@@ -144,7 +90,7 @@ impl ForState {
         Ok(inside)
     }
 
-    /// What its column shows.
+    /// The content of its column.
     pub(crate) fn cell(&self) -> &LoopCell {
         &self.cell
     }
@@ -154,31 +100,38 @@ impl ForState {
     }
 
     /// Writes the value into its entry and its column.
-    pub(crate) fn write(&mut self, plan: &ForPlan, written: &mut Vec<LoopWrite>) {
+    pub(crate) fn write(&mut self, plan: &ForPlan, mode: Mode, written: &mut Vec<LoopWrite>) {
         let bits = self.value.to_bits();
-        let before = self.made.get(self.at).filter(|made| made.bits == bits).cloned();
-        let made = before.unwrap_or_else(|| {
-            let made = PreparedValue::of(self.value, plan.is_text);
-            match self.made.get_mut(self.at) {
-                Some(before) => *before = made.clone(),
-                None if self.at < KEPT => self.made.push(made.clone()),
+        let known = self.prepared.get(self.at).filter(|known| known.bits == bits).cloned();
+        let PreparedValue { content, cell, .. } = known.unwrap_or_else(|| {
+            let prepared = PreparedValue::new(self.value, plan.is_text, mode);
+            match self.prepared.get_mut(self.at) {
+                Some(known) => *known = prepared.clone(),
+                None if self.at < PREPARED => self.prepared.push(prepared.clone()),
                 None => {}
             }
-            made
+            prepared
         });
-        self.cell = made.cell;
-        written.push(LoopWrite { entry: plan.entry, content: made.content });
+        self.cell = cell;
+        written.push(LoopWrite { entry: plan.entry, content });
     }
 }
 
 impl PreparedValue {
-    fn of(value: f64, is_text: bool) -> Self {
-        let number = if is_text { None } else { number::reread(value) };
-        let text = || number::loop_text(value);
-        let cell = if is_text { LoopCell::Text(text().into()) } else { LoopCell::of(value) };
-        let content =
-            number.map_or_else(|| EntryContent::Text(text().into()), EntryContent::Number);
-        Self { bits: value.to_bits(), content, cell }
+    /// Under compat the entry gets the number that NIST's program reads in a text of sixteen
+    /// digits. A value that is not finite is written as text, which is no number: the step is
+    /// refused.
+    fn new(x: f64, is_text: bool, mode: Mode) -> Self {
+        let number = match mode {
+            _ if is_text => None,
+            Mode::Compat => number::reread(x),
+            Mode::Sound => Some(x).filter(|x| x.is_finite()),
+        };
+        let text = || number::loop_text(x);
+        let cell = if is_text { LoopCell::Text(text().into()) } else { LoopCell::of(x) };
+        let content = number
+            .map_or_else(|| EntryContent::Text(text().into()), |x| EntryContent::Value(x.into()));
+        Self { bits: x.to_bits(), content, cell }
     }
 }
 

@@ -1,8 +1,8 @@
 //! `LIST file`: one row per value.
 //!
-//! A cell is evaluated when its row is activated, with the variables of the step before; its
-//! 16-digit text becomes the text of the entry. The results show the cell's own expression,
-//! evaluated again with the new variables.
+//! A cell is evaluated when its row is activated, with the variables of the step before; its value
+//! becomes the content of the entry, under compat as a text of sixteen digits. The results show the
+//! cell's own expression, evaluated again with the new variables.
 
 use std::sync::Arc;
 
@@ -10,33 +10,13 @@ use mist_format::{
     Diagnostic,
     expr::{Expr, Value},
     number::whole_number,
-    program::ListLoop,
-    table::ListTable,
 };
+use scattering::Mode;
 
 use super::{EntryContent, LoopContext, LoopWrite};
-use crate::{fault::Fault, quirk::dialect, step::LoopCell};
+use crate::{fault::Fault, plan::ListPlan, quirk::dialect, step::LoopCell};
 
-/// A LIST loop as compiled.
-pub(crate) struct ListPlan {
-    pub(crate) statement: ListLoop,
-    pub(crate) file: Arc<ListTable>,
-    pub(crate) columns: Vec<ListColumn>,
-    /// Whether a cell reads results of earlier steps.
-    pub(crate) fed_back: bool,
-}
-
-/// A column of a LIST file.
-pub(crate) struct ListColumn {
-    /// The entry of VARIABLES that it writes.
-    pub(crate) entry: usize,
-    /// The name in the file.
-    pub(crate) title: String,
-    /// Whether the entry is a text for the model.
-    pub(crate) is_text: bool,
-}
-
-/// Where a LIST loop stands.
+/// The position of a LIST loop.
 pub(crate) struct ListState {
     row: usize,
     cells: Vec<LoopCell>,
@@ -66,20 +46,18 @@ impl ListState {
     pub(crate) fn write(
         &mut self,
         plan: &ListPlan,
-        context: &mut LoopContext<'_>,
+        context: &mut LoopContext<'_, '_>,
         written: &mut Vec<LoopWrite>,
     ) -> Result<(), Fault> {
         self.cells.clear();
         for (at, column) in plan.columns.iter().enumerate() {
             let raw = plan.file.cell(self.row, at);
-            let (text, cell) = if column.is_text {
-                (Arc::from(raw), LoopCell::Text(raw.into()))
+            let (content, cell) = if column.is_text {
+                (EntryContent::Text(raw.into()), LoopCell::Text(raw.into()))
             } else {
-                let (text, cell) = evaluate(plan, raw, self.row, context)?;
-                (text.into(), cell)
+                let (value, cell) = evaluate(plan, raw, self.row, context)?;
+                (content(value, context.mode), cell)
             };
-            let number = whole_number(&text).filter(|_| !column.is_text);
-            let content = number.map_or(EntryContent::Text(text), EntryContent::Number);
             written.push(LoopWrite { entry: column.entry, content });
             self.cells.push(cell);
         }
@@ -87,15 +65,28 @@ impl ListState {
     }
 }
 
-/// The text that a cell gives its entry, and what the results show.
+/// The content that a value becomes: under compat the number that NIST's program reads in its
+/// text, or the text. A value that is not finite is text, which is no number: the step is refused.
+fn content(value: Value, mode: Mode) -> EntryContent {
+    if mode == Mode::Sound && value.as_slice().iter().all(|x| x.is_finite()) {
+        return EntryContent::Value(value);
+    }
+    let text = value.to_text();
+    match whole_number(&text) {
+        Some(x) => EntryContent::Value(x.into()),
+        None => EntryContent::Text(text.into()),
+    }
+}
+
+/// The value of a cell, and what the results show.
 fn evaluate(
     plan: &ListPlan,
     raw: &str,
     row: usize,
-    context: &mut LoopContext<'_>,
-) -> Result<(String, LoopCell), Fault> {
+    context: &mut LoopContext<'_, '_>,
+) -> Result<(Value, LoopCell), Fault> {
     if let Some(x) = whole_number(raw) {
-        return Ok((Value::from(x).to_text(), LoopCell::of(x)));
+        return Ok((x.into(), LoopCell::of(x)));
     }
     let name = plan.statement.file.as_str();
     let wrong = |diagnostic: Diagnostic| {
@@ -105,10 +96,10 @@ fn evaluate(
     let mut expr =
         Expr::compile(raw, dialect(context.mode)).map_err(|error| wrong(error.diagnostic()))?;
     // A name that no entry and no result has stays without a slot: unknown when it is evaluated.
-    expr.bind(|name| context.names.find(name).unwrap_or(u32::MAX));
-    let value = context.scope.value(&expr, context.stack).map_err(|error| {
-        let known: Vec<&str> = context.scope.defined().map(|s| context.names.name(s)).collect();
-        wrong(error.diagnostic(known))
-    })?;
-    Ok((value.to_text(), LoopCell::Expression(Arc::new(expr))))
+    expr.bind(|name| context.plan.names.find(name).unwrap_or(u32::MAX));
+    let value = context
+        .values
+        .evaluate_raw(&expr)
+        .map_err(|error| wrong(error.diagnostic(context.values.known())))?;
+    Ok((value, LoopCell::Expression(Arc::new(expr))))
 }

@@ -8,7 +8,7 @@ use super::digits::{Digits, MOST};
 const LOOP_WIDTH: usize = 16;
 
 /// Digits that NIST's program keeps where a value becomes text again.
-pub(crate) const TEXT_DIGITS: usize = 16;
+pub const TEXT_DIGITS: usize = 16;
 
 /// `x` with at most `digits` significant digits as `%.{digits}g` writes it: trailing zeros
 /// dropped, an exponent of two digits or more outside of 1e-4 … 10^digits; `inf`, `nan`, `-nan`.

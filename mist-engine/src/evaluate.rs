@@ -1,28 +1,36 @@
-//! The evaluation of a block of steps: unique pieces of work, done in parallel.
+//! Evaluation of steps: models, layouts and Mueller integrals, each computed once.
+//!
+//! A loop over a polarization or an output evaluates no model again, and a loop over the
+//! wavelength lays out no aperture again. Caches are emptied when they have grown large; that
+//! costs time, never changes a number. Keys are compared exactly: a model by its parameters, a
+//! beam by the bits of its angles, an aperture by its layout.
+
+mod cache;
+mod models;
+mod task;
+mod task_list;
 
 use std::{collections::BTreeSet, fmt::Write as _, sync::Arc};
 
 use mist_format::{Diagnostic, number::general};
 use rayon::prelude::*;
-use scattering::{Direction, Incidence, Mueller, Notice, ParameterError};
+use scattering::{Incidence, Mueller, Notice};
 
-use super::{
-    cache::{FastMap, WeightedCache},
-    models::{ModelCell, Models},
-};
 use crate::{
     Control, Failure, Job,
-    fault::Fault,
-    integrate::{Sample, adaptive_samples, contract, integrate_counting, samples},
+    fault::{Fault, at_step},
+    integrate::{Sample, adaptive_samples, samples},
     limits::Meter,
-    parameters::Fingerprint,
-    region::{Region, RegionError},
-    sampling::{
-        Layout, LayoutKey, SamplingRule,
-        adaptive::{self, Accuracy, AdaptiveError},
-    },
+    region::Region,
+    sampling::{Layout, LayoutKey, SamplingRule, adaptive::AdaptiveError},
     step::{Evaluated, Step, StepIntegral},
 };
+use cache::{FastMap, WeightedCache};
+use models::Models;
+use task::{
+    IntegralKey, IntegralTask, MuellerResult, NumberedDirections, TaskDirections, TaskError,
+};
+use task_list::TaskList;
 
 /// Bytes of all layouts kept.
 const KEPT_LAYOUTS: usize = 256 << 20;
@@ -30,191 +38,6 @@ const KEPT_LAYOUTS: usize = 256 << 20;
 const KEPT_INTEGRALS: usize = 1 << 17;
 /// Digits of the numbers in a samples file.
 const SAMPLE_DIGITS: usize = 6;
-
-/// The digest of all that determines a Mueller integral.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct IntegralKey(Fingerprint);
-
-impl IntegralKey {
-    fn new(step: &Step, model: Fingerprint, aperture: ApertureId) -> Self {
-        let beam = (step.theta_i.to_bits(), step.rotation.to_bits());
-        Self(Fingerprint::of(&(model, beam, aperture)))
-    }
-}
-
-/// Where light is collected.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum ApertureId {
-    /// One direction: the bits of θ and φ.
-    Point(u64, u64),
-    /// The layout, or the adaptive aperture, with this number.
-    Area(u64),
-}
-
-/// The directions of an aperture, to be shared.
-type NumberedDirections = (u64, TaskDirections);
-
-/// The directions of a piece of work.
-#[derive(Clone)]
-enum TaskDirections {
-    Point(Direction),
-    Area(Arc<Layout>),
-    Adaptive(Arc<(Region, Accuracy)>),
-}
-
-impl TaskDirections {
-    /// Where `integral` collects light, unless that is one direction.
-    fn area(integral: &StepIntegral) -> Result<Self, RegionError> {
-        let region = &integral.region;
-        Ok(match integral.rule {
-            SamplingRule::Adaptive(accuracy) => {
-                Self::Adaptive(Arc::new((region.clone(), accuracy)))
-            }
-            SamplingRule::Grid(plane) => {
-                Self::Area(Arc::new(Layout::planned(region, &plane, None)?))
-            }
-            SamplingRule::MonteCarlo { plane, seed } => {
-                Self::Area(Arc::new(Layout::planned(region, &plane, Some(seed))?))
-            }
-        })
-    }
-
-    fn bytes(&self) -> usize {
-        match self {
-            Self::Area(layout) => layout.bytes(),
-            Self::Point(..) | Self::Adaptive(_) => size_of::<(Region, Accuracy)>(),
-        }
-    }
-}
-
-/// A Mueller integral that was computed.
-#[derive(Clone)]
-struct MuellerResult {
-    matrix: Mueller,
-    /// The error of each element, of adaptive integrals.
-    error: Option<Arc<Mueller>>,
-}
-
-impl MuellerResult {
-    fn evaluated(&self, integral: &StepIntegral) -> Evaluated {
-        let (pol, inpol) = (&integral.pol, &integral.inpol);
-        let error = match (&self.error, integral.rule.accuracy()) {
-            (Some(error), _) => adaptive::contracted_error(error, pol, inpol),
-            (None, Some(_)) => 0.0,
-            (None, None) => f64::NAN,
-        };
-        Evaluated { value: contract(&self.matrix, pol, inpol), error }
-    }
-}
-
-/// Why a piece of work has no result.
-enum TaskError {
-    Parameter(ParameterError),
-    Adaptive(AdaptiveError),
-    Stopped,
-}
-
-/// A Mueller integral to be computed.
-struct IntegralTask {
-    key: IntegralKey,
-    cell: Arc<ModelCell>,
-    incidence: Incidence,
-    place: TaskDirections,
-    /// Where its result goes.
-    found: usize,
-    /// The step that wants it first, and which of its integrals.
-    wanted_by: (usize, usize),
-}
-
-/// What a block of steps wants.
-#[derive(Default)]
-struct TaskList {
-    /// For every integral of every step, in order, the place of its result.
-    places: Vec<usize>,
-    found: Vec<MuellerResult>,
-    known: FastMap<IntegralKey, usize>,
-    /// The key that was looked for last, and its place.
-    last: Option<(IntegralKey, usize)>,
-    work: Vec<IntegralTask>,
-    /// Layouts that an earlier block has used.
-    again: Vec<Arc<Layout>>,
-    /// What the work gave.
-    done: Vec<Result<(MuellerResult, u64), TaskError>>,
-    /// The integrals that were looked at last, and where they collect light.
-    integrals: Option<Arc<Vec<StepIntegral>>>,
-    apertures: Vec<(ApertureId, TaskDirections)>,
-    /// The beam that was looked at last.
-    beam: Option<Incidence>,
-}
-
-impl TaskList {
-    /// Stores the directions of layouts that more than one integral wants.
-    fn store_shared(&self) {
-        let mut wanted: Vec<&Arc<Layout>> = self.again.iter().collect();
-        wanted.extend(self.work.iter().filter_map(|piece| match &piece.place {
-            TaskDirections::Area(layout) => Some(layout),
-            _ => None,
-        }));
-        wanted.sort_unstable_by_key(|layout| Arc::as_ptr(layout));
-        let shared = wanted.chunk_by(|a, b| Arc::ptr_eq(a, b)).filter(|uses| uses.len() > 1);
-        let shared: Vec<&Arc<Layout>> = shared.map(|uses| uses[0]).collect();
-        shared.into_par_iter().for_each(|layout| layout.store());
-    }
-
-    /// Makes room for the next block; the memory is used again.
-    fn forget(&mut self) {
-        self.places.clear();
-        self.found.clear();
-        self.known.clear();
-        self.last = None;
-        self.work.clear();
-        self.again.clear();
-        self.integrals = None;
-        self.apertures.clear();
-    }
-
-    /// The beam of `step`.
-    fn beam_of(&mut self, step: &Step) -> Incidence {
-        let angles = [step.theta_i, step.rotation].map(f64::to_bits);
-        match self.beam {
-            Some(beam) if [beam.theta(), beam.rotation()].map(f64::to_bits) == angles => beam,
-            _ => self.next_beam(step),
-        }
-    }
-
-    /// Apart from the other, else its sines are computed whether they are wanted or not.
-    #[cold]
-    #[inline(never)]
-    fn next_beam(&mut self, step: &Step) -> Incidence {
-        *self.beam.insert(Incidence::new(step.theta_i, step.rotation))
-    }
-
-    /// Where `integrals` collect light.
-    fn look_at(
-        &mut self,
-        integrals: &Arc<Vec<StepIntegral>>,
-        layouts: &FastMap<LayoutKey, NumberedDirections>,
-    ) {
-        if self.integrals.as_ref().is_some_and(|before| Arc::ptr_eq(before, integrals)) {
-            return;
-        }
-        self.integrals = Some(integrals.clone());
-        self.apertures.clear();
-        self.apertures.extend(integrals.iter().map(|integral| match &integral.region {
-            Region::Differential { center: (theta, phi) } => {
-                let direction = Direction::new(*theta, *phi);
-                (
-                    ApertureId::Point(theta.to_bits(), phi.to_bits()),
-                    TaskDirections::Point(direction),
-                )
-            }
-            _ => {
-                let (id, place) = &layouts[&integral.layout_key()];
-                (ApertureId::Area(*id), place.clone())
-            }
-        }));
-    }
-}
 
 /// Everything that steps share.
 pub(crate) struct Evaluator<'a> {
@@ -326,7 +149,8 @@ impl<'a> Evaluator<'a> {
         if step.integrals.is_empty() {
             return;
         }
-        let model = step.parameters.fingerprint();
+        let model = self.models.id(&step.parameters);
+        let beam = [step.theta_i, step.rotation].map(f64::to_bits);
         todo.look_at(&step.integrals, layouts);
         for number in 0..step.integrals.len() {
             let (aperture, place) = &todo.apertures[number];
@@ -334,7 +158,7 @@ impl<'a> Evaluator<'a> {
                 todo.places.extend_from_within(todo.places.len() - 1..);
                 continue;
             }
-            let key = IntegralKey::new(step, model, *aperture);
+            let key = IntegralKey { model, beam, aperture: *aperture };
             if let Some((last, place)) = todo.last
                 && last == key
             {
@@ -346,7 +170,7 @@ impl<'a> Evaluator<'a> {
             if here == next {
                 let found = self.integrals.get(&key).cloned();
                 if found.is_none() {
-                    let cell = self.models.cell(&step.parameters);
+                    let cell = self.models.cell(model, &step.parameters);
                     let (place, wanted_by) = (place.clone(), (at, number));
                     let incidence = todo.beam_of(step);
                     todo.work.push(IntegralTask {
@@ -369,7 +193,7 @@ impl<'a> Evaluator<'a> {
     /// Does the work and keeps what came out; says how many evaluations of the model it took.
     fn do_all(&mut self, block: &[&Step], todo: &mut TaskList) -> Result<f64, Failure> {
         let stop = || self.control.is_cancelled();
-        let basis = self.job.basis;
+        let basis = self.job.plan.basis;
         let all = todo.work.par_iter().map(|piece| piece.compute(basis, &stop));
         all.collect_into_vec(&mut todo.done);
         let mut spent = 0.0;
@@ -403,12 +227,12 @@ impl<'a> Evaluator<'a> {
         (at, number): (usize, usize),
         fault: impl FnOnce(usize) -> Fault,
     ) -> Failure {
-        crate::run::at_step(block[at].index, fault(number))
+        at_step(block[at].index, fault(number))
     }
 
     /// The fault of an adaptive integral that has no value.
     fn adaptive(&self, number: usize, error: &AdaptiveError) -> Fault {
-        let plan = &self.job.integrals[number];
+        let plan = &self.job.plan.integrals[number];
         let help = match error {
             AdaptiveError::Region(error) => return self.job.region_fault(number, error),
             AdaptiveError::Budget { .. } => {
@@ -431,10 +255,11 @@ impl<'a> Evaluator<'a> {
     /// The lines of the samples file for `step`.
     pub(crate) fn samples(&mut self, step: &Step) -> String {
         let mut text = String::new();
-        let cell = self.models.cell(&step.parameters);
+        let id = self.models.id(&step.parameters);
+        let cell = self.models.cell(id, &step.parameters);
         let Ok(built) = cell.get() else { return text };
         let incidence = Incidence::new(step.theta_i, step.rotation);
-        let (model, basis) = (&built.model, self.job.basis);
+        let (model, basis) = (&built.model, self.job.plan.basis);
         for integral in step.integrals.iter() {
             let light = (&integral.pol, &integral.inpol);
             let mut write = |sample: Sample| {
@@ -460,53 +285,5 @@ impl<'a> Evaluator<'a> {
             }
         }
         text
-    }
-}
-
-impl IntegralTask {
-    /// Whether a later block should find the result: not the only direction of a quick model.
-    fn is_worth_keeping(&self) -> bool {
-        let is_quick = || self.cell.get().is_ok_and(|built| built.model.is_quick());
-        !(matches!(self.place, TaskDirections::Point(..)) && is_quick())
-    }
-
-    /// The Mueller integral, and how many evaluations of the model it took.
-    fn compute(
-        &self,
-        basis: scattering::Basis,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<(MuellerResult, u64), TaskError> {
-        let exact = |(matrix, count)| (MuellerResult { matrix, error: None }, count);
-        let built = || self.cell.get().map_err(|error| TaskError::Parameter(error.clone()));
-        match &self.place {
-            TaskDirections::Point(direction) => {
-                if !(self.incidence.is_above() && direction.is_above()) {
-                    // NIST's program does not ask the model here either, so its errors do not
-                    // matter.
-                    return Ok(exact((Mueller::ZERO, 1)));
-                }
-                let mut out = [Mueller::ZERO];
-                built()?.model.evaluate(&self.incidence, &[*direction], basis, &mut out);
-                Ok(exact((out[0] * direction.cos, 1)))
-            }
-            TaskDirections::Area(layout) => {
-                let model = &built()?.model;
-                let found = integrate_counting(model, &self.incidence, basis, layout, stop);
-                found.map(exact).ok_or(TaskError::Stopped)
-            }
-            TaskDirections::Adaptive(aperture) => {
-                let (region, accuracy) = &**aperture;
-                let model = &built()?.model;
-                adaptive::integrate(model, &self.incidence, basis, region, accuracy, stop)
-                    .map(|found| {
-                        let (matrix, error) = (found.matrix, Some(Arc::new(found.error)));
-                        (MuellerResult { matrix, error }, found.evaluations)
-                    })
-                    .map_err(|error| match error {
-                        AdaptiveError::Stopped => TaskError::Stopped,
-                        other => TaskError::Adaptive(other),
-                    })
-            }
-        }
     }
 }

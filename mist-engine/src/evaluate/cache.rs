@@ -1,19 +1,16 @@
 //! A cache that forgets everything when it holds too much.
 
-use std::{
-    collections::HashMap,
-    hash::{BuildHasherDefault, Hash},
-};
+use std::hash::Hash;
 
-use crate::parameters::Digest;
+use rustc_hash::FxHashMap;
 
 /// A map with a fast hash; its order is never used.
-pub(crate) type FastMap<K, V> = HashMap<K, V, BuildHasherDefault<Digest>>;
+pub(super) type FastMap<K, V> = FxHashMap<K, V>;
 
 /// Values of a total weight up to a bound.
 ///
 /// They lie in the order they came, so that few pages of memory are touched by many of them.
-pub(crate) struct WeightedCache<K, V> {
+pub(super) struct WeightedCache<K, V> {
     places: FastMap<K, u32>,
     values: Vec<V>,
     weight: usize,
@@ -22,15 +19,15 @@ pub(crate) struct WeightedCache<K, V> {
 
 impl<K: Hash + Eq, V: Clone> WeightedCache<K, V> {
     /// A cache for a total weight up to `most`.
-    pub(crate) fn up_to(most: usize) -> Self {
+    pub(super) fn up_to(most: usize) -> Self {
         Self { places: FastMap::default(), values: Vec::new(), weight: 0, most }
     }
 
-    pub(crate) fn get(&self, key: &K) -> Option<&V> {
+    pub(super) fn get(&self, key: &K) -> Option<&V> {
         self.places.get(key).map(|place| &self.values[*place as usize])
     }
 
-    pub(crate) fn insert(&mut self, key: K, value: V, weight: usize) {
+    pub(super) fn insert(&mut self, key: K, value: V, weight: usize) {
         if self.weight + weight > self.most || u32::try_from(self.values.len()).is_err() {
             self.places.clear();
             self.values.clear();
@@ -48,10 +45,10 @@ mod tests {
 
     #[test]
     fn a_full_cache_starts_again_and_keeps_the_new_value() {
-        let mut kept = WeightedCache::up_to(2);
-        kept.insert(1, 'a', 1);
-        kept.insert(2, 'b', 1);
-        kept.insert(3, 'c', 1);
-        assert_eq!((kept.get(&1), kept.get(&3)), (None, Some(&'c')));
+        let mut cache = WeightedCache::up_to(2);
+        cache.insert(1, 'a', 1);
+        cache.insert(2, 'b', 1);
+        cache.insert(3, 'c', 1);
+        assert_eq!((cache.get(&1), cache.get(&3)), (None, Some(&'c')));
     }
 }

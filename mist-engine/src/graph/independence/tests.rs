@@ -1,11 +1,10 @@
-//! Programs whose steps stand alone, and programs whose steps do not.
+//! Programs with independent steps, and programs without.
 
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
 use scattering::Mode;
 
-use super::Alone;
 use crate::{
     Control, Job, MemoryFiles, MemorySink, Options, OutputStream, compile, replay::Replay,
 };
@@ -45,13 +44,13 @@ fn run(job: &Job, threads: usize) -> MemorySink {
     sink
 }
 
-fn is_alone(job: &Job) -> bool {
+fn is_independent(job: &Job) -> bool {
     let mut replay = Replay::new(job);
     replay.next_step().unwrap();
-    Alone::new(job).is_some_and(|alone| alone.holds_for(replay.parameters()))
+    job.graph.independence.as_ref().is_some_and(|all| all.holds_for(replay.parameters()))
 }
 
-/// Programs and whether their steps stand alone.
+/// Programs and whether their steps are independent.
 fn programs() -> Vec<(String, bool)> {
     let gaussian = "$sdf = Gaussian_Slope_Distribution_Function";
     let with = |variables: &str| program(variables, LOOPS, OUTPUTS);
@@ -85,14 +84,14 @@ fn programs() -> Vec<(String, bool)> {
 }
 
 #[test]
-fn steps_that_stand_alone_are_told_from_those_that_do_not() {
+fn independent_steps_are_recognised() {
     for (source, alone) in programs() {
-        assert_eq!(is_alone(&job(&source)), alone, "{source}");
+        assert_eq!(is_independent(&job(&source)), alone, "{source}");
     }
 }
 
 #[test]
-fn side_by_side_steps_have_the_table_and_the_listing_of_one_after_the_other() {
+fn parallel_replays_give_the_table_and_the_listing_of_one_replay() {
     for (source, _) in programs() {
         let job = job(&source);
         let one = run(&job, 1);
@@ -105,7 +104,7 @@ fn side_by_side_steps_have_the_table_and_the_listing_of_one_after_the_other() {
 }
 
 #[test]
-fn parts_that_begin_in_the_middle_are_parts_of_the_whole() {
+fn a_part_from_the_middle_is_a_part_of_the_whole() {
     for (source, _) in programs() {
         let job = job(&source);
         let steps = job.count_steps(&Control::default()).unwrap();

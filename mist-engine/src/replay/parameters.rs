@@ -1,0 +1,143 @@
+//! Sending of the entries' values to the model: only values that the entry has not sent before.
+
+use mist_format::expr::Value;
+use rustc_hash::FxHashMap;
+use scattering::Mode;
+
+use super::{Override, Replay};
+use crate::{
+    fault::Fault,
+    parameters::{ModelParameters, ParameterInput},
+    step::{Listing, ListingLine, SentInput},
+    sweep::EntryContent,
+};
+
+/// The memo of the model's parameters: their states after the numbers that were sent. Loops send
+/// the same numbers again and again, and equal states are then the same object with the same hash.
+#[derive(Default)]
+pub(super) struct ParameterMemo(FxHashMap<SentNumber, SentState>);
+
+/// The largest number of states in a memo.
+const STATES: usize = 1 << 12;
+
+/// A number sent by an entry to parameters with a hash.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct SentNumber {
+    entry: usize,
+    bits: u64,
+    before: u64,
+}
+
+/// The parameters before and after a number was sent, and the input that was sent.
+#[derive(Clone)]
+struct SentState {
+    before: ModelParameters,
+    input: SentInput,
+    after: ModelParameters,
+}
+
+impl ParameterMemo {
+    /// The state after `sent` to the parameters `before`.
+    fn get(&self, sent: &SentNumber, before: &ModelParameters) -> Option<SentState> {
+        self.0.get(sent).filter(|state| state.before == *before).cloned()
+    }
+
+    fn insert(&mut self, sent: SentNumber, state: SentState) {
+        if self.0.len() >= STATES {
+            self.0.clear();
+        }
+        self.0.insert(sent, state);
+    }
+}
+
+impl Replay<'_> {
+    /// Sends the text of an entry to the model.
+    pub(super) fn send_text(&mut self, at: usize, listing: &mut Listing) -> Result<(), Fault> {
+        let text = match &self.overrides[at] {
+            Some(Override { content: EntryContent::Text(text), .. }) => text.clone(),
+            Some(Override { content: EntryContent::Value(value), .. }) => value.to_text().into(),
+            None => self.text(&self.job.plan.entries[at]).as_str().into(),
+        };
+        self.send(at, SentInput::Text(text), listing)
+    }
+
+    /// Sends the value of an entry to the model: its numbers, under compat their text.
+    pub(super) fn send_value(
+        &mut self,
+        at: usize,
+        value: Value,
+        listing: &mut Listing,
+    ) -> Result<(), Fault> {
+        let number = value.single().filter(|_| self.is_memoized(at));
+        let sent = number.map(|x| SentNumber {
+            entry: at,
+            bits: x.to_bits(),
+            before: self.parameters.hash_code(),
+        });
+        let Some(sent) = sent else { return self.send(at, self.input(value), listing) };
+        if let Some(known) = self.memo.get(&sent, &self.parameters) {
+            if self.is_new(at, &known.input) {
+                self.parameters = known.after;
+                self.note_sent(at, known.input, listing);
+            }
+            return Ok(());
+        }
+        let (before, input) = (self.parameters.clone(), self.input(value));
+        self.send(at, input.clone(), listing)?;
+        let after = self.parameters.clone();
+        self.memo.insert(sent, SentState { before, input, after });
+        Ok(())
+    }
+
+    /// The input that a value is to the model.
+    fn input(&self, value: Value) -> SentInput {
+        match self.job.options.mode {
+            Mode::Sound => SentInput::Value(value),
+            Mode::Compat => SentInput::Text(value.to_text().into()),
+        }
+    }
+
+    /// Whether the parameters after a number depend on nothing but the number and the parameters
+    /// before: NIST's optical constants also remember the last evaluation.
+    fn is_memoized(&self, at: usize) -> bool {
+        let path = self.job.plan.entries[at].parameter.as_ref();
+        self.job.graph.inside(at).is_empty()
+            && (self.job.options.mode == Mode::Sound
+                || path.is_some_and(|path| self.parameters.belongs_to_object(path)))
+    }
+
+    fn is_new(&self, at: usize, input: &SentInput) -> bool {
+        self.sent[at].as_ref().is_none_or(|last| last.input != *input)
+    }
+
+    fn send(&mut self, at: usize, input: SentInput, listing: &mut Listing) -> Result<(), Fault> {
+        if !self.is_new(at, &input) {
+            return Ok(());
+        }
+        let job = self.job;
+        let entry = &job.plan.entries[at];
+        let path = entry.parameter.as_ref().expect("only parameters are sent");
+        let new = match &input {
+            SentInput::Text(text) => ParameterInput::Text(text),
+            SentInput::Value(value) => ParameterInput::Numbers(value.as_slice()),
+        };
+        let (mode, previous) = (job.options.mode, self.previous.as_ref());
+        self.parameters.set(path, new, &job.library, mode, previous).map_err(|error| {
+            let variable = &job.plan.program.variables[entry.variable];
+            let place = if error.is_about_the_name() { &variable.name } else { &variable.value };
+            Box::new(error.diagnostic(place.span()))
+        })?;
+        for inside in job.graph.inside(at) {
+            self.sent[*inside] = None;
+            self.values.mark(*inside);
+        }
+        self.note_sent(at, input, listing);
+        Ok(())
+    }
+
+    fn note_sent(&mut self, at: usize, input: SentInput, listing: &mut Listing) {
+        let line = ListingLine { entry: at, input };
+        listing.push(line.clone());
+        self.sent[at] = Some(line);
+    }
+}
