@@ -20,13 +20,15 @@ mod memo;
 mod op;
 mod scalar;
 mod scan;
+mod scope;
 mod value;
 
 pub use error::{EvalError, EvalErrorKind, ExprError, ExprErrorKind};
-pub use eval::{NoNames, Scope, Stack};
+pub use eval::Stack;
 pub use expression::Expr;
 pub use functions::Function;
 pub use limits::MAX_TOKENS;
+pub use scope::{NoNames, Scope};
 pub use value::Value;
 
 #[cfg(test)]

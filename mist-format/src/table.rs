@@ -9,6 +9,7 @@ mod formula;
 mod limits;
 mod lines;
 mod list;
+mod rows;
 
 pub use columns::ColumnTable;
 pub use error::TableError;

@@ -81,10 +81,9 @@ fn entries(folder: &Path) -> Vec<String> {
     files.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
 }
 
-/// Text from bytes: UTF-8, or else Latin-1, in which every byte is a character.
+/// The text of the bytes of a file, see [`mist_format::decode`].
 pub fn decode(bytes: Vec<u8>) -> String {
-    String::from_utf8(bytes)
-        .unwrap_or_else(|error| error.into_bytes().into_iter().map(char::from).collect())
+    mist_format::decode(&bytes).into_owned()
 }
 
 #[cfg(test)]

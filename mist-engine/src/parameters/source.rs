@@ -167,7 +167,10 @@ fn points(
 ) -> Result<RealFunction, SetError> {
     let column = element + 1;
     if column >= table.columns() {
-        let problem = format!("{file} has {} columns, not {}", table.columns(), column + 1);
+        let mut problem = format!("{file} has {} columns, not {}", table.columns(), column + 1);
+        if (table.columns(), column) == (2, 2) {
+            problem += ": add a column with k, which is 0 for a material that does not absorb";
+        }
         return Err(SetError::value(problem));
     }
     let rows: Vec<(f64, f64)> = table.rows().map(|row| (row[0], row[column])).collect();

@@ -2,9 +2,10 @@
 
 use super::compiled::CompiledExpr;
 use super::error::{EvalError, ExprError};
-use super::eval::{Scope, Stack};
+use super::eval::Stack;
 use super::scalar;
 use super::scan::{Rules, compile};
+use super::scope::Scope;
 use super::value::Value;
 use crate::dialect::Dialect;
 

@@ -4,10 +4,10 @@
 //! machine (`eval.rs`) stay empty; what is left are operations on a short stack whose top is in a
 //! register. The general machine takes over wherever that does not hold, and finds the errors.
 
-use super::eval::{Scope, signed};
 use super::functions::Function;
 use super::memo::Memo;
 use super::op::{Action, Op, Operation};
+use super::scope::{Scope, signed};
 use crate::number::whole_number;
 
 /// Numbers below the top that a program may need.

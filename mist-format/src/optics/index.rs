@@ -195,7 +195,8 @@ mod tests {
         assert_eq!(sound("./nk.txt"), file("./nk.txt", 2));
         assert_eq!(sound("../a/b"), file("../a/b", 2));
         assert_eq!(sound("2gold.txt"), file("2gold.txt", 2));
-        for text in ["1.5+0.3", "1.5,0.2", "a b"] {
+        assert_eq!(sound("my gold.txt"), file("my gold.txt", 2));
+        for text in ["1.5+0.3", "1.5,0.2", "1.5 b"] {
             let error = IndexText::parse(text, Dialect::Sound).unwrap_err();
             assert!(matches!(error, OpticsError::Refused { .. }), "{text}");
         }

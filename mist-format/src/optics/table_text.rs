@@ -3,6 +3,7 @@
 use super::error::OpticsError;
 use crate::dialect::{Dialect, TextDeviation};
 use crate::expr::{Expr, NoNames, Stack, Value};
+use crate::number::number_prefix;
 
 /// A Table parameter as text.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,23 +28,28 @@ pub enum TableText {
 }
 
 impl TableText {
-    /// Reads the text of a Table. NIST takes its first word.
+    /// Reads the text of a Table. Compat: its first word. Sound: the whole text, which may be the
+    /// name of a file with blanks.
     ///
     /// # Errors
-    /// No text, a formula that is not an expression; sound: more than one word.
+    /// No text, a formula that is not an expression; sound: several words that begin with a number
+    /// or a formula.
     pub fn parse(text: &str, dialect: Dialect) -> Result<Self, OpticsError> {
         if let Some(value) = constant(text) {
             return Ok(Self::Constant(value));
         }
         let mut words = text.split_ascii_whitespace();
-        let word = words.next().ok_or(OpticsError::Empty)?;
+        let mut word = words.next().ok_or(OpticsError::Empty)?;
         if words.next().is_some() && TextDeviation::NumberPrefix.refused_in(dialect) {
-            let (text, reading) = (text.to_owned(), word.to_owned());
-            return Err(OpticsError::Refused {
-                text,
-                reading,
-                deviation: TextDeviation::NumberPrefix,
-            });
+            if !is_file_name(word) {
+                let (text, reading) = (text.to_owned(), word.to_owned());
+                return Err(OpticsError::Refused {
+                    text,
+                    reading,
+                    deviation: TextDeviation::NumberPrefix,
+                });
+            }
+            word = text.trim();
         }
         if let Some((variable, formula)) = word.strip_prefix('@').and_then(|w| w.split_once(':')) {
             let columns = Expr::compile_library(formula)
@@ -59,6 +65,12 @@ impl TableText {
             None => Self::File { name: word.into(), column: None },
         })
     }
+}
+
+/// True if the first word of several is the beginning of a file name.
+fn is_file_name(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_alphabetic() || "_./\\~".contains(c))
+        && number_prefix(word.as_bytes()).value.is_none()
 }
 
 /// The value of an expression that needs neither names nor files.
@@ -83,6 +95,8 @@ mod tests {
         assert_eq!(parse("gold.txt"), file("gold.txt", None));
         assert_eq!(parse("gold.txt!4"), file("gold.txt", Some(4)));
         assert_eq!(parse("wow!.txt"), file("wow!.txt", None));
+        assert_eq!(parse("my data/gold 2.txt!3"), file("my data/gold 2.txt", Some(3)));
+        assert!(TableText::parse("1.5 gold.txt", Dialect::Sound).is_err());
         let huge = "gold.txt!18446744073709551615";
         assert_eq!(parse(huge), file(huge, None));
         match parse("@w:sqrt(w)+1,if(w>0.5,0.1,0)") {

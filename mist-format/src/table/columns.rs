@@ -2,7 +2,8 @@
 
 use super::error::TableError;
 use super::lines::{lines, open_comment};
-use crate::dialect::{Dialect, TextDeviation};
+use super::rows::read_rows;
+use crate::dialect::Dialect;
 use crate::number::number_prefix;
 
 /// A table of numbers.
@@ -19,15 +20,14 @@ impl ColumnTable {
     /// Reads a table.
     ///
     /// All lines up to the first one that consists of numbers are a header. That line gives
-    /// the number of columns; later lines that begin with fewer numbers are skipped.
-    /// Columns are separated by white space; a comma may follow a number.
+    /// the number of columns; lines that do not begin with a number are skipped.
     ///
-    /// Compat: an item counts as a number if it begins with one, and the last line is dropped
-    /// if it has no line end. Sound: the last line is kept, and in rows of numbers an item
-    /// that only begins with a number is refused.
+    /// Compat: columns are separated by white space, a comma may follow a number; an item counts
+    /// as a number if it begins with one, lines with fewer numbers are skipped, and the last line
+    /// is dropped if it has no line end. Sound: the module `rows` has the rules.
     ///
     /// # Errors
-    /// An empty file, no row of numbers, an open comment, and what the sound dialect refuses.
+    /// An empty file, no row of numbers, an open comment, and texts that the sound dialect refuses.
     pub fn parse(text: &str, dialect: Dialect) -> Result<Self, TableError> {
         if text.trim().is_empty() {
             return Err(TableError::Empty);
@@ -35,39 +35,11 @@ impl ColumnTable {
         if let Some(line) = open_comment(text) {
             return Err(TableError::OpenComment { line });
         }
-        let mut columns = 0;
-        let mut numbers = Vec::new();
-        for line in lines(text) {
-            if !line.ended && TextDeviation::DroppedLastLine.applies_in(dialect) {
-                break;
-            }
-            let items = || line.text.split_ascii_whitespace();
-            if columns == 0 {
-                if items().next().is_none() || !items().all(|item| leading(item).is_some()) {
-                    continue;
-                }
-                columns = items().count();
-            }
-            let row = items().map_while(leading).take(columns);
-            let before = numbers.len();
-            numbers.extend(row);
-            if numbers.len() < before + columns {
-                numbers.truncate(before);
-            } else if TextDeviation::NumberPrefix.refused_in(dialect)
-                && let Some(item) = items().take(columns).find(|item| !is_whole(item))
-            {
-                let (line, item) = (line.number, item.to_owned());
-                return Err(TableError::Refused {
-                    line,
-                    item,
-                    deviation: TextDeviation::NumberPrefix,
-                });
-            }
+        if dialect.is_compat() {
+            return nist_rows(text);
         }
-        if columns == 0 || numbers.is_empty() {
-            return Err(TableError::NoData);
-        }
-        Ok(Self::from_rows(columns, numbers))
+        let rows = read_rows(text)?;
+        Ok(Self::from_rows(rows.columns, rows.numbers))
     }
 
     /// A table of rows of `columns` numbers each, one row after the other; numbers that fill
@@ -130,6 +102,30 @@ impl ColumnTable {
     }
 }
 
+/// The rows as NIST's program reads them.
+fn nist_rows(text: &str) -> Result<ColumnTable, TableError> {
+    let mut columns = 0;
+    let mut numbers = Vec::new();
+    for line in lines(text).take_while(|line| line.ended) {
+        let items = || line.text.split_ascii_whitespace();
+        if columns == 0 {
+            if items().next().is_none() || !items().all(|item| leading(item).is_some()) {
+                continue;
+            }
+            columns = items().count();
+        }
+        let before = numbers.len();
+        numbers.extend(items().map_while(leading).take(columns));
+        if numbers.len() < before + columns {
+            numbers.truncate(before);
+        }
+    }
+    if columns == 0 || numbers.is_empty() {
+        return Err(TableError::NoData);
+    }
+    Ok(ColumnTable::from_rows(columns, numbers))
+}
+
 /// Linear between sorted points, constant outside of them; NaN without points.
 fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
     let behind = points.partition_point(|point| point.0 <= x);
@@ -143,12 +139,6 @@ fn interpolate(points: &[(f64, f64)], x: f64) -> f64 {
 /// The number that an item begins with.
 fn leading(item: &str) -> Option<f64> {
     number_prefix(item.as_bytes()).value
-}
-
-/// True if an item is a number, or a number and a comma.
-fn is_whole(item: &str) -> bool {
-    let bare = item.strip_suffix(',').unwrap_or(item);
-    number_prefix(bare.as_bytes()).taken == bare.len()
 }
 
 #[cfg(test)]
@@ -196,14 +186,11 @@ mod tests {
     }
 
     #[test]
-    fn a_comma_needs_a_blank() {
+    fn a_comma_needs_a_blank_in_compat() {
         assert_eq!(compat("0.4, 1.5, 0\n").columns(), 3);
         let glued = "0.4,1.5,0\n";
         assert_eq!(compat(glued).columns(), 1);
-        assert!(matches!(
-            ColumnTable::parse(glued, Dialect::Sound),
-            Err(TableError::Refused { line: 1, .. })
-        ));
+        assert_eq!(ColumnTable::parse(glued, Dialect::Sound).unwrap().columns(), 3);
     }
 
     #[test]

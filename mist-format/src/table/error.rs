@@ -44,6 +44,37 @@ pub enum TableError {
         /// The deviation of NIST's program.
         deviation: TextDeviation,
     },
+    /// A numeric line with fewer numbers than the first one.
+    #[error(
+        "line {line}: {found} numbers, but line {first} has {expected}; if line {first} is a heading, \
+         begin it with `;`"
+    )]
+    ShortRow {
+        /// The line, from 1.
+        line: usize,
+        /// Numbers in the line.
+        found: usize,
+        /// Numbers in the first line.
+        expected: usize,
+        /// The first line of numbers, from 1.
+        first: usize,
+    },
+    /// A comma that is decimal, or may be.
+    #[error("line {line}: `{item}` has a decimal comma; write decimal points")]
+    DecimalComma {
+        /// The line, from 1.
+        line: usize,
+        /// The item.
+        item: String,
+    },
+    /// A second table that is not k over the abscissae of the first.
+    #[error(
+        "line {line}: a second table begins; keep one table per file, with columns for n and k"
+    )]
+    SecondTable {
+        /// The line of its heading, from 1.
+        line: usize,
+    },
     /// A violation of the grammar of formula files.
     #[error("line {line}: expected {expected}")]
     Formula {
