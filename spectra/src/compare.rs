@@ -23,6 +23,9 @@ use crate::{
     wavelength::GridError,
 };
 
+/// Wavelengths without which colours would be those of the extrapolation, nm.
+const VISIBLE_NM: [f64; 2] = [400.0, 700.0];
+
 /// The comparison of two spectra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectrumComparison {
@@ -51,6 +54,16 @@ pub struct SpectrumComparison {
 /// Errors of comparing two spectra.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CompareError {
+    /// They have no visible wavelength in common, so that they have no colours.
+    #[error(
+        "no common wavelength is visible: they end at {first} and {last} nm; 400 to 700 nm are"
+    )]
+    Invisible {
+        /// The shortest common wavelength, nm.
+        first: f64,
+        /// The longest common wavelength, nm.
+        last: f64,
+    },
     /// They have too few wavelengths in common.
     #[error(
         "the simulated spectrum covers {found} of the measured wavelengths ({measured} nm against \
@@ -100,6 +113,10 @@ pub fn compare(
         let range = |list: &[f64]| format!("{} to {}", list[0], list[list.len() - 1]);
         let (measured, simulated) = (range(all), range(known));
         return Err(CompareError::Apart { found: wavelengths.len(), measured, simulated });
+    }
+    let (first, last) = (wavelengths[0], wavelengths[wavelengths.len() - 1]);
+    if last < VISIBLE_NM[0] || first > VISIBLE_NM[1] {
+        return Err(CompareError::Invisible { first, last });
     }
     let s = cubic_spline(known, simulated.values(), &wavelengths).unwrap_or_else(|| {
         let mut s = vec![0.0; m.len()];
@@ -194,6 +211,9 @@ mod tests {
         let flat = |from, value| spectrum(from, 10.0, 10, value);
         let apart = compared(&flat(400.0, |_| 0.5), &flat(475.0, |_| 0.5));
         assert!(matches!(apart, Err(CompareError::Apart { found: 2, .. })), "{apart:?}");
+        let infrared = flat(1000.0, |_| 0.5);
+        let unseen = compared(&infrared, &infrared);
+        assert_eq!(unseen, Err(CompareError::Invisible { first: 1000.0, last: 1090.0 }));
         let dark = compared(&flat(400.0, |_| 0.5), &flat(400.0, |_| 0.0));
         assert_eq!(dark, Err(CompareError::Zero));
     }

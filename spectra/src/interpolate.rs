@@ -1,7 +1,9 @@
 //! Interpolation of a spectrum to the 1 nm grid.
 //!
-//! CIE 167:2005 recommends Sprague's formula for equal steps and a cubic spline otherwise. No
-//! result is clipped: the overshoot belongs to the error, and Stokes values are signed.
+//! CIE 167:2005 recommends Sprague's formula for equal steps. On unequal steps a cubic spline can
+//! oscillate far beyond its samples, so straight lines are the default there: they are monotone
+//! between samples and never below zero for non-negative data. No result is clipped: Stokes values
+//! are signed.
 
 mod cubic;
 mod interval;
@@ -37,16 +39,17 @@ impl Interpolation {
         NamedValue("linear", Self::Linear),
     ];
 
-    /// The interpolation for reflectances on `grid`, chosen by its steps and its size.
+    /// The default interpolation on `grid`: Sprague's formula for six or more equal steps, a cubic
+    /// spline for four or five, straight lines otherwise.
     pub fn for_grid(grid: &Grid) -> Self {
         if grid.is_one_nanometre() {
             Self::None
-        } else if grid.len() >= 6 && grid.step_nm().is_some() {
-            Self::Sprague
-        } else if grid.len() >= 4 {
+        } else if grid.step_nm().is_none() || grid.len() < 4 {
+            Self::Linear
+        } else if grid.len() < 6 {
             Self::Cubic
         } else {
-            Self::Linear
+            Self::Sprague
         }
     }
 
@@ -195,7 +198,7 @@ mod tests {
         assert_eq!(chosen(&[400.0, 401.0, 402.0]), Interpolation::None);
         assert_eq!(chosen(&[400.0, 410.0, 420.0, 430.0, 440.0, 450.0]), Interpolation::Sprague);
         assert_eq!(chosen(&[400.0, 410.0, 420.0, 430.0, 440.0]), Interpolation::Cubic);
-        assert_eq!(chosen(&[400.0, 411.0, 420.0, 430.0, 440.0, 450.0]), Interpolation::Cubic);
+        assert_eq!(chosen(&[400.0, 411.0, 420.0, 430.0, 440.0, 450.0]), Interpolation::Linear);
         assert_eq!(chosen(&[400.0, 411.0, 420.0]), Interpolation::Linear);
     }
 

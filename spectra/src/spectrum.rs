@@ -28,10 +28,27 @@ pub enum SpectrumError {
         /// The line.
         text: String,
     },
+    /// Wavelengths that are not visible in any unit, and no heading that names the unit.
+    #[error(
+        "the unit of the wavelengths {first} to {last} is not certain; name it in a heading, such as \
+         `nm value`"
+    )]
+    Unit {
+        /// The shortest wavelength.
+        first: f64,
+        /// The longest wavelength.
+        last: f64,
+    },
     /// Numbers that are not a spectrum.
     #[error(transparent)]
     Samples(#[from] GridError),
 }
+
+/// The range of the sums for colours, nm.
+const VISIBLE_NM: [f64; 2] = [360.0, 830.0];
+
+/// The longest wavelength that counts as Å without a heading.
+const LONGEST_ANGSTROM: f64 = 12_000.0;
 
 /// A spectrum: values at wavelengths.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,26 +58,45 @@ pub struct Spectrum {
     values: Vec<f64>,
 }
 
-/// The unit of the wavelengths in a file, recognized by their size.
+/// The unit of the wavelengths in a file: from its heading, or the one in which most of the range is
+/// visible.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum WavelengthUnit {
-    /// Micrometres: the largest number is below 30.
+    /// Micrometres.
     Micrometre,
     /// Nanometres.
     Nanometre,
-    /// Ångström: the largest number is above 2000.
+    /// Ångström.
     Angstrom,
 }
 
 impl WavelengthUnit {
-    fn of(largest: f64) -> Self {
-        if largest < 30.0 {
-            Self::Micrometre
-        } else if largest > 2000.0 {
-            Self::Angstrom
-        } else {
-            Self::Nanometre
-        }
+    const ALL: [Self; 3] = [Self::Nanometre, Self::Micrometre, Self::Angstrom];
+
+    /// The unit that a heading names, if it names one only.
+    fn of_heading(heading: &str) -> Option<Self> {
+        let words = heading.split(|c: char| !c.is_alphabetic()).map(str::to_lowercase);
+        let mut units = words.filter_map(|word| match word.as_str() {
+            "nm" | "nanometer" | "nanometers" | "nanometre" | "nanometres" => Some(Self::Nanometre),
+            "um" | "µm" | "μm" | "micron" | "microns" | "micrometer" | "micrometers"
+            | "micrometre" | "micrometres" => Some(Self::Micrometre),
+            "å" | "angstrom" | "angstroms" | "ångström" | "ångstrom" => Some(Self::Angstrom),
+            _ => None,
+        });
+        let first = units.next()?;
+        units.all(|unit| unit == first).then_some(first)
+    }
+
+    /// The unit in which the longest part of the range is visible, if any is. Ångström beyond
+    /// [`LONGEST_ANGSTROM`] may be nanometres of the infrared, so the heading must tell.
+    fn of_range([first, last]: [f64; 2]) -> Option<Self> {
+        let visible = |unit: &Self| {
+            let [low, high] = [first, last].map(|w| unit.to_nm(w));
+            high.min(VISIBLE_NM[1]) - low.max(VISIBLE_NM[0])
+        };
+        let best = Self::ALL.into_iter().max_by(|a, b| visible(a).total_cmp(&visible(b)))?;
+        let is_certain = best != Self::Angstrom || last <= LONGEST_ANGSTROM;
+        (visible(&best) >= 0.0 && is_certain).then_some(best)
     }
 
     fn to_nm(self, wavelength: f64) -> f64 {
@@ -86,14 +122,16 @@ impl Spectrum {
     /// A spectrum from a text of two columns, and the unit its wavelengths were taken to be in.
     ///
     /// Columns are separated by blanks, tabs, commas or semicolons; `#`, `//` and `;` begin a
-    /// comment line; a first line without any number is a heading.
+    /// comment line; lines before the first number whose first word is not a number are headings.
+    /// A heading may name the unit: nm, µm or Å.
     ///
     /// # Errors
     ///
-    /// If a line does not hold two numbers, or the numbers are not a spectrum.
+    /// If a line does not hold two numbers, the numbers are not a spectrum, or the unit of the
+    /// wavelengths is not certain.
     pub fn parse(text: &str) -> Result<(Self, WavelengthUnit), SpectrumError> {
         let (mut wavelengths, mut values) = (Vec::new(), Vec::new());
-        let mut heading_allowed = true;
+        let mut heading = String::new();
         for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
             let line_text = line.trim();
             let comment = ["#", "//", ";"].iter().any(|mark| line_text.starts_with(mark));
@@ -105,12 +143,21 @@ impl Spectrum {
                     wavelengths.push(wavelength);
                     values.push(value);
                 }
-                Err(_) if heading_allowed && is_heading(line_text) => {}
+                Err(_) if wavelengths.is_empty() && is_heading(line_text) => heading += line_text,
                 Err(error) => return Err(error),
             }
-            heading_allowed = false;
         }
-        let unit = WavelengthUnit::of(wavelengths.iter().copied().fold(0.0, f64::max));
+        let first = wavelengths.iter().copied().fold(f64::INFINITY, f64::min);
+        let last = wavelengths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let named = WavelengthUnit::of_heading(&heading);
+        let unit = match named.or_else(|| WavelengthUnit::of_range([first, last])) {
+            Some(unit) => unit,
+            // Too few or invalid wavelengths have an error of their own.
+            None if !(first > 0.0 && first.is_finite()) || !last.is_finite() => {
+                WavelengthUnit::Nanometre
+            }
+            None => return Err(SpectrumError::Unit { first, last }),
+        };
         let nm: Vec<f64> = wavelengths.iter().map(|w| unit.to_nm(*w)).collect();
         Ok((Self::new(&nm, &values)?, unit))
     }
@@ -184,8 +231,10 @@ fn read_pair(line: usize, text: &str) -> Result<(f64, f64), SpectrumError> {
     }
 }
 
+/// True if the first word of a line is not a number: headings may have digits elsewhere.
 fn is_heading(text: &str) -> bool {
-    text.split([' ', '\t', ',', ';']).all(|piece| piece.parse::<f64>().is_err())
+    let first = text.split([' ', '\t', ',', ';']).find(|piece| !piece.is_empty());
+    first.is_none_or(|first| first.trim_matches('"').parse::<f64>().is_err())
 }
 
 #[cfg(test)]
@@ -206,6 +255,27 @@ mod tests {
             assert_eq!(spectrum, Spectrum::new(&[400.0, 500.0], &[0.5, 0.6]).unwrap(), "{text}");
         }
         assert_eq!(Spectrum::parse("0.4 1\n0.5 1").unwrap().1, WavelengthUnit::Micrometre);
+    }
+
+    #[test]
+    fn the_unit_is_that_of_the_heading_or_of_the_visible_range() {
+        let unit = |text: &str| Spectrum::parse(text).map(|(_, unit)| unit);
+        use WavelengthUnit::{Angstrom, Micrometre, Nanometre};
+        for (text, expected) in [
+            ("300 1\n4000 2", Nanometre),
+            ("Wavelength (nm) T at 300 K\n2500 1\n25000 2", Nanometre),
+            ("lambda/um R\n2 1\n14 2", Micrometre),
+            ("0.3 1\n40 2", Micrometre),
+            ("3000 1\n11000 2", Angstrom),
+            ("wavelength [Å], value\n1200 1\n3000 2", Angstrom),
+            ("380 1\n780 2", Nanometre),
+        ] {
+            assert_eq!(unit(text), Ok(expected), "{text}");
+        }
+        for text in ["2 1\n14 2", "2500 1\n25000 2", "nm or um\n2 1\n14 2"] {
+            let error = unit(text).unwrap_err();
+            assert!(matches!(error, SpectrumError::Unit { .. }), "{text}: {error}");
+        }
     }
 
     #[test]

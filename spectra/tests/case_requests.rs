@@ -245,3 +245,24 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_digitized_led_on_uneven_wavelengths_has_no_negative_colour() {
+    // Straight lines between the points; a cubic spline gave X, Y, Z = 0.025, −0.006, −0.063.
+    let case = json!({
+        "wavelengths": [
+            360.0, 361.0, 362.0, 368.0, 369.0, 370.0, 596.5, 599.5, 601.5, 620, 640, 641, 650, 651,
+            655, 658, 660, 665, 670, 680, 700, 720, 830
+        ],
+        "values": [
+            0, 0.0035, 0, 0, 0.0012, 0, 0.0001, 0.001, 0.0011, 0.01, 0.12, 0.13, 0.55, 0.6, 0.9, 1.0,
+            0.97, 0.6, 0.25, 0.04, 0.002, 0, 0
+        ],
+        "illuminant": "E", "quantity": "reflectance", "rgb": []
+    });
+    let found = evaluate(&case).unwrap().results[0].xyz;
+    for (found, expected) in found.iter().zip([0.043690783, 0.016768136, 3.82773e-5]) {
+        // The digits of the reference.
+        assert!((found - expected).abs() < 1e-8, "{found} {expected}");
+    }
+}
