@@ -1,4 +1,4 @@
-//! What is allowed but probably not meant, and what a run would refuse: the part of `mist check`
+//! Warnings of valid but suspicious text, and errors of a run: the part of `mist check`
 //! behind compiling.
 //!
 //! Unused variables show in the text. The rest needs numbers: the steps are replayed (see
@@ -63,7 +63,7 @@ struct Rehearsal<'j> {
     /// Parameters of the models that were built.
     models: HashSet<ModelParameters>,
     steps: u64,
-    /// How far the steps went.
+    /// Number of the steps that were replayed.
     fraction: f64,
     is_whole: bool,
 }
@@ -149,7 +149,7 @@ impl<'j> Rehearsal<'j> {
         }
     }
 
-    /// How many steps the run has, as far as it can be told.
+    /// Number of steps of the run, if it can be determined.
     fn all_steps(&self) -> f64 {
         let seen = self.steps as f64;
         if self.is_whole || self.job.graph.in_order {

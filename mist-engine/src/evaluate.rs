@@ -138,7 +138,7 @@ impl<'a> Evaluator<'a> {
         Ok(layouts)
     }
 
-    /// Where the integrals of one step will be; what nobody has computed yet becomes work.
+    /// Places of the integrals of one step; integrals that are not computed yet become tasks.
     fn find(
         &mut self,
         at: usize,

@@ -1,4 +1,4 @@
-//! What stops a job: a wrong program, a failed run, a wish.
+//! Reasons for the end of a job: a wrong program, a failed run, a cancellation.
 
 use std::io;
 
@@ -18,7 +18,7 @@ pub enum Failure {
     Step {
         /// Number of the step, from 0.
         step: u64,
-        /// What happened.
+        /// The fault.
         fault: Fault,
     },
     /// A limit was reached.

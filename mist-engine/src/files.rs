@@ -11,7 +11,7 @@ use mist_format::{
     table::{ColumnTable, ListTable, TableError},
 };
 
-/// Where the texts of data files come from.
+/// Source of the texts of data files.
 pub trait Files: Sync {
     /// The whole text of the file that a program calls `name`.
     ///
@@ -54,7 +54,7 @@ impl Files for MemoryFiles {
     }
 }
 
-/// What a run has read: every file once, parsed once. Clones share what they read.
+/// Data files of a run: each is read and parsed once. Clones share them.
 #[derive(Clone)]
 pub struct DataFiles {
     shelf: Arc<FileCache>,
@@ -74,7 +74,7 @@ impl DataFiles {
         Self { shelf: Arc::new(FileCache { files, dialect, texts, tables }) }
     }
 
-    /// How files are read.
+    /// Dialect in which files are read.
     pub fn dialect(&self) -> Dialect {
         self.shelf.dialect
     }

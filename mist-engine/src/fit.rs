@@ -30,10 +30,10 @@ use crate::{Control, Failure, function::ProgramFunction};
 
 pub use measured::{Datum, MeasuredError, MeasuredTable};
 
-/// How variables are fitted.
+/// Settings of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitSettings {
-    /// Where to start variables, in place of the program's values.
+    /// Initial values of variables, in place of the program's values.
     pub start: BTreeMap<String, f64>,
     /// The least and the largest value that variables may have.
     pub bounds: BTreeMap<String, [f64; 2]>,
@@ -65,7 +65,7 @@ impl Default for FitSettings {
 pub struct Fitted {
     /// Its name in the program.
     pub name: String,
-    /// Where it started.
+    /// Initial value.
     pub start: f64,
     /// Its best value.
     pub value: f64,
@@ -73,11 +73,11 @@ pub struct Fitted {
     pub standard_error: Option<f64>,
     /// The interval that covers the true value with the wanted probability.
     pub interval: Option<[f64; 2]>,
-    /// Whether it ended at one of its bounds.
+    /// True if it ended at one of its bounds.
     pub at_bound: bool,
 }
 
-/// What is left between the data and the program.
+/// Residuals between the data and the program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Residuals {
     /// Number of data.
@@ -105,11 +105,11 @@ pub struct Fit {
     pub parameters: Vec<Fitted>,
     /// Probability of the intervals.
     pub confidence: f64,
-    /// Whether the uncertainties were taken as standard deviations.
+    /// True if the uncertainties were taken as standard deviations.
     pub absolute: bool,
     /// Correlation matrix of the variables; those at a bound have zeros.
     pub correlation: Vec<Vec<f64>>,
-    /// What is left.
+    /// Residuals.
     pub residuals: Residuals,
     /// Iterations it took.
     pub iterations: usize,
@@ -127,7 +127,7 @@ pub enum FitError {
     Setting {
         /// Which.
         name: String,
-        /// What is wrong.
+        /// Description of the error.
         problem: String,
     },
     /// There are not more data than variables.
@@ -188,7 +188,7 @@ pub enum FitError {
 }
 
 impl FitError {
-    /// What is wrong with the program, if that is why.
+    /// Diagnostics of the program, if it is the reason.
     pub fn diagnostics(&self) -> Option<&[Diagnostic]> {
         match self {
             Self::Run { failure: Failure::Program(diagnostics), .. } => Some(diagnostics),

@@ -55,7 +55,7 @@ pub struct FunctionValues {
 /// A line of the results, unrounded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutputRow {
-    /// What the columns of the loops show.
+    /// Contents of the columns of the loops.
     pub loops: Vec<String>,
     /// The outputs.
     pub outputs: Vec<f64>,
@@ -72,7 +72,7 @@ pub enum FunctionError {
     Unknown {
         /// The name.
         name: String,
-        /// What may have been meant.
+        /// Suggested name.
         help: Option<String>,
     },
     /// The variable is named twice, or assigned more than once in the program.

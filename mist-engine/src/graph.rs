@@ -41,13 +41,13 @@ pub(crate) struct DependencyGraph {
     predefined: Vec<(u32, f64)>,
     /// For each entry those that set a parameter inside of the object that it sets.
     inside: Vec<Vec<usize>>,
-    /// Whether variables, loops or apertures read integrals or outputs of earlier steps.
+    /// True if variables, loops or apertures read integrals or outputs of earlier steps.
     pub(crate) in_order: bool,
-    /// Whether an aperture reads an integral or output, so that integrals are computed one by one.
+    /// True if an aperture reads an integral or output, so that integrals are computed one by one.
     pub(crate) chained: bool,
-    /// Whether no output reads what an output gave in the line before.
+    /// True if no output reads what an output gave in the line before.
     pub(crate) lines_independent: bool,
-    /// How far steps are independent; none if a step may depend on those before it.
+    /// Independence of the steps; `None` if a step may depend on earlier ones.
     pub(crate) independence: Option<Independence>,
 }
 
@@ -210,14 +210,14 @@ fn inside(plan: &Plan, mode: Mode) -> Vec<Vec<usize>> {
     (0..plan.entries.len()).map(inside).collect()
 }
 
-/// Whether an aperture reads an integral or an output.
+/// True if an aperture reads an integral or an output.
 fn is_chained(plan: &Plan) -> bool {
     let results: BTreeSet<u32> = plan.results().collect();
     let settings = plan.integrals.iter().flat_map(|integral| &integral.settings);
     settings.flat_map(|setting| plan.slots_of(setting.expr)).any(|slot| results.contains(slot))
 }
 
-/// Whether variables, loop bounds or apertures read integrals or outputs.
+/// True if variables, loop bounds or apertures read integrals or outputs.
 fn reads_results(plan: &Plan) -> bool {
     let results: BTreeSet<u32> = plan.results().collect();
     let required = &plan.required;
@@ -234,7 +234,7 @@ fn reads_results(plan: &Plan) -> bool {
         || plan.loops.iter().any(is_fed_back)
 }
 
-/// Whether no output reads what it or one behind it gave in the line before. Every line begins
+/// True if no output reads what it or one behind it gave in the line before. Every line begins
 /// with the variables and the integrals of its step, whatever outputs are called.
 fn lines_are_independent(plan: &Plan) -> bool {
     let variables = plan.entries.iter().filter_map(|entry| entry.slot);

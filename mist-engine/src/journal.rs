@@ -1,4 +1,4 @@
-//! What is kept of the steps of a run, so that a run that was interrupted goes on where it was.
+//! Finished steps of a run, from which an interrupted run continues.
 //!
 //! A step is kept as the values of its integrals: all that a replay cannot compute without the
 //! model. With them the texts, the spectra and the variables that are fed back come out again, to
@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 
 use crate::step::Evaluated;
 
-/// What the evaluation of one step gave.
+/// Result of the evaluation of one step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepResult {
     /// The integrals, in the order of the program.
@@ -21,7 +21,7 @@ pub struct StepResult {
 
 /// Keeps the steps of a run outside of the engine.
 pub trait Journal: Send {
-    /// What an earlier run of the same job kept of `step`; steps are asked for in order.
+    /// Result of `step` that an earlier run of the same job stored; steps are requested in order.
     ///
     /// # Errors
     ///

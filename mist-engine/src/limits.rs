@@ -1,4 +1,4 @@
-//! How much a run may cost, and how it is watched and stopped.
+//! Limits of a run, its progress and its cancellation.
 
 use std::{
     sync::{
@@ -41,7 +41,7 @@ pub struct Control {
 }
 
 impl Control {
-    /// Whether the run was asked to stop.
+    /// True if the run was asked to stop.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.load(Ordering::Relaxed)
     }
@@ -54,7 +54,7 @@ impl Control {
     }
 }
 
-/// What a run has used up of its limits.
+/// Usage of the limits of a run.
 pub(crate) struct Meter<'a> {
     limits: &'a Limits,
     started: Instant,

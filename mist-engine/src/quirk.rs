@@ -38,13 +38,13 @@ impl Quirk {
         Self::PolygonApertures,
     ];
 
-    /// Whether `mode` reproduces it.
+    /// True if `mode` reproduces it.
     pub fn applies_in(self, mode: Mode) -> bool {
         mode == Mode::Compat
     }
 }
 
-/// How texts are read in `mode`.
+/// Dialect of texts in `mode`.
 pub fn dialect(mode: Mode) -> Dialect {
     match mode {
         Mode::Sound => Dialect::Sound,

@@ -1,4 +1,4 @@
-//! How the directions of an integral are laid out.
+//! Layout of the directions of an integral.
 //!
 //! A square grid or random points in a plane are projected onto a cone around the region, and
 //! the points above the horizon and inside the region are kept. A [`Layout`] depends neither on
@@ -51,7 +51,7 @@ pub struct Layout {
     stored: OnceLock<Vec<DirectionChunk>>,
 }
 
-/// How a weighted sum becomes an integral.
+/// Scale from a weighted sum to an integral.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scale {
     /// Times a projected solid angle, over the sum of the weights.
@@ -71,7 +71,7 @@ struct Plan {
     outlines: Outlines,
 }
 
-/// What a direction of the cone must meet to belong to the region.
+/// Condition for a direction of the cone to belong to the region.
 #[derive(Clone, Debug)]
 enum Membership {
     /// Nothing: the region is the cone.
@@ -161,12 +161,12 @@ impl Layout {
         self.plan.scale
     }
 
-    /// Whether the region is one direction.
+    /// True if the region is one direction.
     pub(crate) fn is_single_direction(&self) -> bool {
         matches!(self.plan.inside, Membership::One(_))
     }
 
-    /// How many directions it has; for a layout that is not stored, at most so many.
+    /// Number of its directions; an upper bound for a layout that is not stored.
     pub fn directions(&self) -> usize {
         match self.stored.get() {
             Some(chunks) => chunks.iter().map(|chunk| chunk.directions.len()).sum(),

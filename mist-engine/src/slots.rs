@@ -38,7 +38,7 @@ impl SlotNames {
         &self.names[slot as usize]
     }
 
-    /// How many slots there are.
+    /// Number of slots.
     pub(crate) fn len(&self) -> usize {
         self.names.len()
     }
@@ -121,7 +121,7 @@ impl expr::Scope for SlotValues {
     }
 }
 
-/// Whether two values have the same bits.
+/// True if two values have the same bits.
 pub(crate) fn same(a: Option<&Value>, b: Option<&Value>) -> bool {
     match (a, b) {
         (Some(a), Some(b)) => {

@@ -29,21 +29,21 @@ pub struct Step {
     pub rotation: f64,
     /// One per integral, in the order of the program; shared with the step before if equal.
     pub integrals: Arc<Vec<StepIntegral>>,
-    /// How the directions of its integrals are chosen; an error for a wrong `integrationmode`,
+    /// Sampling rule of its integrals; an error for a wrong `integrationmode`,
     /// which integrals of one direction do not need.
     pub(crate) rule: Result<SamplingRule, RegionError>,
     /// The incident light of integrals without INPOL.
     pub(crate) incident: Stokes,
-    /// What the columns of the loops show.
+    /// Contents of the columns of the loops.
     pub(crate) columns: LoopCells,
     /// Values of the variables that outputs read, parallel to the job's `reads`; shared with the
     /// step before if equal.
     pub(crate) values: Arc<[Option<Value>]>,
     /// Lines for the listing.
     pub(crate) listing: Listing,
-    /// How often each loop was advanced since its reset; nothing where no colours are made.
+    /// Number of advances of each loop since its reset; empty if no colours are computed.
     pub(crate) counts: Vec<u64>,
-    /// How far the first declared loop is, from 0 to 1.
+    /// Progress of the first declared loop, from 0 to 1.
     pub(crate) fraction: f64,
 }
 
@@ -52,7 +52,7 @@ pub struct Step {
 pub struct StepIntegral {
     /// The solid angle.
     pub region: Region,
-    /// How its directions are chosen; without effect for one direction.
+    /// Rule by which its directions are chosen; without effect for one direction.
     pub rule: SamplingRule,
     /// Sensitivity of the detector.
     pub pol: Stokes,
@@ -61,7 +61,7 @@ pub struct StepIntegral {
 }
 
 impl StepIntegral {
-    /// What tells its directions from those of other integrals.
+    /// Key of its directions.
     pub(crate) fn layout_key(&self) -> LayoutKey {
         LayoutKey::new(&self.region, &self.rule)
     }
@@ -77,7 +77,7 @@ pub struct Evaluated {
 }
 
 impl Evaluated {
-    /// What an integral has that nobody evaluated.
+    /// Value of an integral that was not evaluated.
     pub(crate) const NONE: Self = Self { value: f64::NAN, error: f64::NAN };
 }
 
@@ -102,10 +102,10 @@ pub(crate) enum SentInput {
 /// Digits of numbers in loop columns; the program's `format` does not concern them.
 pub(crate) const COLUMN_DIGITS: usize = 6;
 
-/// What the columns of the loops show: of a few loops without memory of their own.
+/// Contents of the columns of the loops, without an allocation for a few loops.
 pub(crate) type LoopCells = SmallVec<[LoopCell; 4]>;
 
-/// What a loop column shows.
+/// Contents of a loop column.
 #[derive(Clone, Debug)]
 pub(crate) enum LoopCell {
     /// Text as it is; a short one, as nearly all are, is copied without counting who holds it.

@@ -1,4 +1,4 @@
-//! How far the colours of a program move when its variables change: what a colour tolerance asks
+//! Change of the colours of a program with its variables, as required for colour tolerances
 //! of thicknesses, sizes and densities.
 //!
 //! For each variable p and each row of the colour table, with a step h,
@@ -23,7 +23,7 @@ use crate::{
     function::ProgramFunction,
 };
 
-/// How the colour of one row moves.
+/// Change of the colour of one row.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ColourShift {
     /// Values of the columns before the angles.
@@ -40,7 +40,7 @@ pub struct ColourShift {
     pub lab: [f64; 3],
 }
 
-/// What one variable does to the colours.
+/// Effect of one variable on the colours.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ColourSensitivity {
     /// The variable.
@@ -59,7 +59,7 @@ pub struct ColourSensitivity {
     pub rows: Vec<ColourShift>,
 }
 
-/// What the variables do to the colours of a program.
+/// Effects of the variables on the colours of a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ColourTolerance {
     /// Step relative to the value.
@@ -97,7 +97,7 @@ pub enum ToleranceError {
     },
 }
 
-/// How far the colours of `program` move per unit of each of its variables; `step` is relative to
+/// Change of the colours of `program` per unit of each of its variables; `step` is relative to
 /// the value, and absolute for a value of zero.
 ///
 /// # Errors
@@ -187,13 +187,13 @@ fn sensitivity(
 }
 
 impl ToleranceError {
-    /// Whether another value of the variable may be possible.
+    /// True if another value of the variable may be possible.
     fn is_of_the_value(&self) -> bool {
         matches!(self, Self::Run { failure, .. } if !matches!(failure, Failure::Cancelled))
     }
 }
 
-/// What brings the quantity to a scale on which a perfect diffuser has the white's Y.
+/// Factor from the quantity to a scale on which a perfect diffuser has the white's Y.
 fn scale(table: &ColourTable) -> Result<f64, ToleranceError> {
     match table.quantity.split(' ').next() {
         Some("brdf") => Ok(PI),

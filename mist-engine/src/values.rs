@@ -89,7 +89,7 @@ impl<'j> NodeValues<'j> {
         self.stale.insert(node);
     }
 
-    /// Whether the memo of `node` does not hold; the caller renews it.
+    /// True if the memo of `node` does not hold; the caller renews it.
     pub(crate) fn take(&mut self, node: NodeId) -> bool {
         self.stale.remove(node)
     }

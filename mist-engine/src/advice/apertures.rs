@@ -23,7 +23,7 @@ const COUNTED: f64 = 3e5;
 /// Different layouts that are counted for one integral.
 const LAYOUTS: usize = 64;
 
-/// What the apertures of a program turned out to be.
+/// Findings about the apertures of a program.
 pub(super) struct Apertures<'j> {
     job: &'j Job,
     /// One for each integral.
@@ -73,7 +73,7 @@ impl<'j> Apertures<'j> {
         Ok(())
     }
 
-    /// What there is to say of a run of so many steps.
+    /// Warnings for a run with this number of steps.
     pub(super) fn warnings(&self, steps: f64) -> Vec<Diagnostic> {
         let mut found: Vec<_> = self
             .seen

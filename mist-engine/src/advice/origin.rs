@@ -1,4 +1,4 @@
-//! Where a number comes from: through plain variables and loops back to what was written.
+//! Origin of a number: through plain variables and loops back to the literal.
 
 use std::collections::BTreeSet;
 
@@ -15,22 +15,22 @@ const LONGEST_CHAIN: usize = 32;
 pub(super) enum Element {
     /// The one at this place, from 0.
     At(usize),
-    /// Where one number is wanted, the last one.
+    /// The last number, where one number is required.
     Last,
 }
 
-/// What was written for a number.
+/// Literal of a number.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Origin {
-    /// Where.
+    /// Place.
     pub(super) span: Span,
     /// The text there.
     pub(super) text: String,
-    /// Whether it is a number and nothing else.
+    /// True if it is a number and nothing else.
     pub(super) is_literal: bool,
 }
 
-/// What was written for the variable `name`, whose value is `value`.
+/// Literal of the variable `name`, whose value is `value`.
 pub(super) fn of_variable(job: &Job, name: &str, value: f64) -> Option<Origin> {
     Some(match source(job, name, value)? {
         Source::Text(text) => origin(job, &text, Element::Last, value),
@@ -121,7 +121,7 @@ enum Source {
     File(SourceText),
 }
 
-/// What gives the variable `name` its value: a loop, or its entry.
+/// Source of the value of the variable `name`: a loop, or its entry.
 fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
     let slot = job.plan.names.find(name)?;
     let at = job.plan.entries.iter().rposition(|entry| entry.slot == Some(slot))?;
@@ -143,7 +143,7 @@ fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
     })
 }
 
-/// Whether an element is made of an angle in degrees, or of π: through all variables it reads.
+/// True if an element is made of an angle in degrees, or of π: through all variables it reads.
 pub(super) fn is_converted(job: &Job, text: &SourceText, element: Element) -> bool {
     let part = part(text, element).unwrap_or_else(|| text.clone());
     are_converted(job, vec![part.as_str().to_owned()])

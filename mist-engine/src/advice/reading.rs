@@ -11,14 +11,14 @@ use mist_format::{
 use super::origin::{Element, Origin, is_converted, is_variable_converted, of_variable, origin};
 use crate::{Job, slots::SlotValues};
 
-/// Where the number is found.
+/// Place of the number.
 pub(super) enum Source<'j> {
     Slot(u32),
     Expr(&'j Expr),
     Number(f64),
 }
 
-/// What the number is.
+/// Meaning of the number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unit {
     /// An angle in radians that may look like degrees.
@@ -58,7 +58,7 @@ impl<'j> Reading<'j> {
         }
     }
 
-    /// What there is to say.
+    /// The warning.
     pub(super) fn warning(&self, job: &Job) -> Option<Diagnostic> {
         if self.extreme.abs() <= self.most {
             return None;

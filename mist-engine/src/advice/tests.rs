@@ -41,7 +41,7 @@ fn advice(text: &str) -> Vec<Diagnostic> {
     compile(text, files, &Options::default()).unwrap().advice()
 }
 
-/// What is said: code, line and the text it is about.
+/// Warnings as code, line and text at the place.
 fn told(changes: &[(&str, &str)]) -> Vec<(&'static str, usize, String)> {
     let text = program(changes);
     let lines = LineIndex::new(&text);

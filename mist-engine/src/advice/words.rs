@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// What a word is.
+/// Kind of a word.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     /// A number without a sign.

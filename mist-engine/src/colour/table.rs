@@ -9,7 +9,7 @@
 pub struct ColourTable {
     /// Name of the material.
     pub material: String,
-    /// What the values are, with their unit: `brdf 1/sr`, `factor 1`, `reflectance 1`, `radiance`.
+    /// Quantity of the values with its unit: `brdf 1/sr`, `factor 1`, `reflectance 1`, `radiance`.
     pub quantity: String,
     /// Incident Stokes vector.
     pub incident: [f64; 4],
@@ -17,7 +17,7 @@ pub struct ColourTable {
     pub frame: String,
     /// Wavelengths of the spectra, nm, ascending.
     pub wavelengths: Vec<f64>,
-    /// How spectra were brought to 1 nm, and what stands outside them: `sprague hold`.
+    /// Interpolation of spectra to 1 nm and their extrapolation: `sprague hold`.
     pub interpolation: String,
     /// Name of the illuminant.
     pub illuminant: String,
@@ -29,9 +29,9 @@ pub struct ColourTable {
     pub adaptation: String,
     /// XYZ of the perfect diffuser, Y = 1.
     pub white: [f64; 3],
-    /// How the rows are ordered.
+    /// Order of the rows.
     pub layout: RowOrder,
-    /// What solid angle a row stands for.
+    /// Solid angle of a row.
     pub patch: RowPatch,
     /// Names of columns before the angles: loops that are neither angles nor folded.
     pub leading: Vec<String>,

@@ -24,7 +24,7 @@ pub(super) struct IntegralKey {
     pub(super) aperture: ApertureId,
 }
 
-/// Where light is collected.
+/// Region in which light is collected.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum ApertureId {
     /// One direction: the bits of θ and φ.
@@ -45,7 +45,7 @@ pub(super) enum TaskDirections {
 }
 
 impl TaskDirections {
-    /// Where `integral` collects light, unless that is one direction.
+    /// Region in which `integral` collects light, unless it is one direction.
     pub(super) fn area(integral: &StepIntegral) -> Result<Self, RegionError> {
         let region = &integral.region;
         Ok(match integral.rule {
@@ -102,14 +102,14 @@ pub(super) struct IntegralTask {
     pub(super) cell: Arc<ModelCell>,
     pub(super) incidence: Incidence,
     pub(super) place: TaskDirections,
-    /// Where its result goes.
+    /// Place of its result.
     pub(super) found: usize,
     /// The step that wants it first, and which of its integrals.
     pub(super) wanted_by: (usize, usize),
 }
 
 impl IntegralTask {
-    /// Whether a later block should find the result: not the only direction of a quick model.
+    /// True if a later block should find the result: not the only direction of a quick model.
     pub(super) fn is_worth_keeping(&self) -> bool {
         let is_quick = || self.cell.get().is_ok_and(|built| built.model.is_quick());
         !(matches!(self.place, TaskDirections::Point(..)) && is_quick())

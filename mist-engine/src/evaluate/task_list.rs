@@ -18,7 +18,7 @@ use crate::{
     step::{Step, StepIntegral},
 };
 
-/// What a block of steps wants.
+/// Tasks of a block of steps.
 #[derive(Default)]
 pub(super) struct TaskList {
     /// For every integral of every step, in order, the place of its result.
@@ -30,7 +30,7 @@ pub(super) struct TaskList {
     pub(super) work: Vec<IntegralTask>,
     /// Layouts that an earlier block has used.
     pub(super) again: Vec<Arc<Layout>>,
-    /// What the work gave.
+    /// Results of the tasks.
     pub(super) done: Vec<Result<(MuellerResult, u64), TaskError>>,
     /// The integrals that were looked at last, and where they collect light.
     pub(super) integrals: Option<Arc<Vec<StepIntegral>>>,
@@ -81,7 +81,7 @@ impl TaskList {
         *self.beam.insert(Incidence::new(step.theta_i, step.rotation))
     }
 
-    /// Where `integrals` collect light.
+    /// Regions in which `integrals` collect light.
     pub(super) fn look_at(
         &mut self,
         integrals: &Arc<Vec<StepIntegral>>,

@@ -22,7 +22,7 @@ use crate::function::OutputRow;
 /// Loop values are printed with six digits; nothing closer than this can be told apart.
 const SAME: f64 = 2e-6;
 
-/// What was measured in one place.
+/// Measured values of one row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Datum {
     /// Row of the table, from 1.
@@ -46,7 +46,7 @@ pub struct MeasuredTable {
     ignored: Vec<String>,
 }
 
-/// What is wrong with a table of measured values.
+/// Error in a table of measured values.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeasuredError {
     /// There is no line with names.
@@ -75,9 +75,9 @@ pub enum MeasuredError {
         line: usize,
         /// Name of the column.
         column: String,
-        /// What stands there.
+        /// Text that was found.
         text: String,
-        /// What should.
+        /// Expected text.
         expected: &'static str,
     },
     /// Rows and lines of the results cannot be brought together.
@@ -100,12 +100,12 @@ pub enum MeasuredError {
         row: usize,
         /// Its loop values.
         place: String,
-        /// How many lines have them.
+        /// Number of lines with these values.
         found: usize,
     },
 }
 
-/// What a column holds.
+/// Contents of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum MeasuredColumn {
     Loop(usize),
@@ -311,7 +311,7 @@ fn names_of(names: &[String], roles: &[MeasuredColumn], wanted: MeasuredColumn) 
     names.iter().zip(roles).filter(|(_, role)| **role == wanted).map(|(n, _)| n.clone()).collect()
 }
 
-/// Whether a cell of the results and one of the table are the same loop value.
+/// True if a cell of the results and one of the table are the same loop value.
 fn same(line: &str, cell: &str) -> bool {
     match (line.trim().parse::<f64>(), cell.parse::<f64>()) {
         (Ok(a), Ok(b)) => (a - b).abs() <= SAME * a.abs().max(b.abs()),

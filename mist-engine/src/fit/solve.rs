@@ -103,7 +103,7 @@ impl<'a> LeastSquares<'a> {
         self.conclude(&values, iterations)
     }
 
-    /// What the minimum at `values` says.
+    /// Result of the fit at the minimum `values`.
     fn conclude(mut self, values: &[f64], iterations: usize) -> Result<Fit, FitError> {
         let residuals = self.residuals(values)?;
         let at_bound = |at: &usize| {
@@ -331,7 +331,7 @@ fn check(settings: &FitSettings) -> Result<(), FitError> {
     }
 }
 
-/// How many standard errors an interval reaches to each side.
+/// Half width of an interval in standard errors.
 fn quantile(settings: &FitSettings, freedom: usize) -> f64 {
     let upper = 0.5 + 0.5 * settings.confidence;
     if settings.absolute {

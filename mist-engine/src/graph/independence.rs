@@ -15,7 +15,7 @@ use crate::{
     quirk::dialect,
 };
 
-/// What is left to be checked of a job whose expressions pass nothing on.
+/// Checks that remain for a job whose expressions pass on no values.
 pub(crate) struct Independence {
     /// The parameters of the model that the loops change.
     changed: Vec<ParameterPath>,
@@ -44,13 +44,13 @@ impl Independence {
         (are_fixed && are_last).then_some(Self { changed })
     }
 
-    /// Whether setting the changed parameters in `parameters` replaces all that they were.
+    /// True if setting the changed parameters in `parameters` replaces all that they were.
     pub(crate) fn holds_for(&self, parameters: &ModelParameters) -> bool {
         self.changed.iter().all(|path| parameters.belongs_to_object(path))
     }
 }
 
-/// Whether every entry has a slot of its own and reads only slots of entries before it.
+/// True if every entry has a slot of its own and reads only slots of entries before it.
 fn reads_forward(plan: &Plan) -> bool {
     let mut given = BTreeMap::new();
     for (at, entry) in plan.entries.iter().enumerate() {
@@ -80,7 +80,7 @@ fn changed(plan: &Plan) -> (Vec<usize>, BTreeSet<u32>) {
     (entries, slots)
 }
 
-/// Whether no cell of a LIST file names a variable.
+/// True if no cell of a LIST file names a variable.
 fn reads_nothing(plan: &ListPlan, mode: Mode) -> bool {
     let dialect = dialect(mode);
     (0..plan.file.row_count()).all(|row| {
@@ -93,7 +93,7 @@ fn reads_nothing(plan: &ListPlan, mode: Mode) -> bool {
     })
 }
 
-/// Whether `parameter` is set once per step, behind the objects that it belongs to, and nothing
+/// True if `parameter` is set once per step, behind the objects that it belongs to, and nothing
 /// inside of it is set.
 fn is_last(parameter: (usize, &ParameterPath), sent: &[(usize, &ParameterPath)]) -> bool {
     let (at, path) = parameter;

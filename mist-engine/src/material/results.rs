@@ -16,7 +16,7 @@ use crate::colour::{ColourTable, RowOrder, RowPatch, fold::coloured};
 pub struct ResultColumns {
     /// The column of the wavelength.
     pub wavelength: String,
-    /// Whether it is in nm; else it is in µm.
+    /// True if it is in nm; else it is in µm.
     pub nm: bool,
     /// One column, or four for I, Q, U and V.
     pub values: Vec<String>,

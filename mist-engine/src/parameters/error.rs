@@ -8,9 +8,9 @@ use mist_format::{Diagnostic, Span};
 pub struct SetError {
     /// The name as the program wrote it.
     pub path: String,
-    /// What is wrong.
+    /// Description of the error.
     pub problem: String,
-    /// What to write instead.
+    /// Text to write instead.
     pub help: Option<String>,
     about_the_name: bool,
 }
@@ -38,7 +38,7 @@ impl SetError {
         Self { path: path.to_owned(), ..self }
     }
 
-    /// Whether the name is wrong, not the value.
+    /// True if the name is wrong, not the value.
     pub fn is_about_the_name(&self) -> bool {
         self.about_the_name
     }

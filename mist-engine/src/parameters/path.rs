@@ -16,9 +16,9 @@ pub struct ParameterPath {
 
 #[derive(Debug)]
 struct PathPart {
-    /// Where the part begins in the text.
+    /// Start of the part in the text.
     start: usize,
-    /// Where it ends.
+    /// End of the part in the text.
     end: usize,
     /// Position and description in each class that has a parameter of this name.
     positions: Vec<(&'static Class, usize, &'static Parameter)>,
@@ -50,7 +50,7 @@ impl ParameterPath {
         &self.text
     }
 
-    /// Whether the parameter belongs to the object that `object` names.
+    /// True if the parameter belongs to the object that `object` names.
     pub(crate) fn is_inside(&self, object: &Self) -> bool {
         self.text.strip_prefix(&*object.text).is_some_and(|rest| rest.starts_with('.'))
     }

@@ -39,7 +39,7 @@ impl<T: Clone + Hash> Persistent<T> {
         })
     }
 
-    /// Whether both share their memory.
+    /// True if both share their memory.
     pub(crate) fn is_same_as(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }

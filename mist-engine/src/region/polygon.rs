@@ -16,9 +16,9 @@ pub(crate) struct Polygon {
     cells: Option<PolygonCells>,
 }
 
-/// How many slabs there are at least and at most, and for how many edges one.
+/// Smallest and largest number of slabs, and number of edges per slab.
 const SLABS: (usize, usize, usize) = (16, 1024, 2);
-/// How many rows of cells there are at least and at most, and for how many points one of each
+/// Smallest and largest number of rows of cells, and number of points per cell of each
 /// row and column: to fill the cells costs less than they save.
 const CELLS: (usize, usize, f64) = (16, 128, 3.0);
 
@@ -30,7 +30,7 @@ struct PolygonEdge {
 }
 
 impl PolygonEdge {
-    /// Whether a ray from `p` counts this edge: the first rule that applies decides.
+    /// True if a ray from `p` counts this edge: the first rule that applies decides.
     fn counts(&self, p: DVec2) -> bool {
         let Self { a, b } = self;
         if (a.x < p.x && b.x <= p.x) || (a.x > p.x && b.x >= p.x) || (a.y < p.y && b.y <= p.y) {
@@ -42,7 +42,7 @@ impl PolygonEdge {
         a.y + (b.y - a.y) * (p.x - a.x) / (b.x - a.x) > p.y
     }
 
-    /// Whether the open segments cross in one point.
+    /// True if the open segments cross in one point.
     fn crosses(&self, other: &Self) -> bool {
         let (d, e, ac) = (self.b - self.a, other.b - other.a, other.a - self.a);
         let parallel = d.perp_dot(e);
@@ -69,12 +69,12 @@ impl Polygon {
         self
     }
 
-    /// Whether `p` is inside by the even–odd rule, with NIST's decisions for points on an edge.
+    /// True if `p` is inside by the even–odd rule, with NIST's decisions for points on an edge.
     pub(crate) fn contains(&self, p: DVec2) -> bool {
         self.slabs.contain(&self.vertices, p)
     }
 
-    /// What is known about points that are far from all edges, whatever the rounding of their
+    /// Known position of points that are far from all edges, for any rounding of their
     /// coordinates.
     pub(crate) fn cells(&self) -> Option<&PolygonCells> {
         self.cells.as_ref()

@@ -137,7 +137,7 @@ impl<'j> Replay<'j> {
         stokes(self.values.expression(*expr, text)?, text)
     }
 
-    /// How the directions of the integrals are chosen, by `integrationmode`.
+    /// Sampling rule of the integrals, by `integrationmode`.
     ///
     /// The inner error is that of an unknown mode.
     fn rule(

@@ -34,7 +34,7 @@ use cell::{CubatureCell, NODES};
 use integrand::Integrand;
 use rays::Rays;
 
-/// How accurate an integral must become, and what it may cost.
+/// Required accuracy of an integral, and its limit of evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Largest error of an element, relative to the largest element: that of unpolarized light.
@@ -151,7 +151,7 @@ struct MeasuredCell {
     cell: CubatureCell,
     matrix: Mueller,
     error: Mueller,
-    /// Whether the error along p is larger than that along t.
+    /// True if the error along p is larger than that along t.
     along_p: bool,
 }
 

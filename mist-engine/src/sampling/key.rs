@@ -1,4 +1,4 @@
-//! What tells one layout from another.
+//! Key that distinguishes layouts.
 
 use super::{Outlines, PlaneSampling, SamplingRule, adaptive::Accuracy};
 use crate::region::Region;

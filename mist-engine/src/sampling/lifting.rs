@@ -12,7 +12,7 @@ use crate::region::{AxisRotation, CellContent, PolygonCells};
 pub(super) struct Lifted {
     count: usize,
     v: [Vec<f64>; 3],
-    /// What makes up for the projection, times cos θ.
+    /// Weight of the projection, times cos θ.
     weights: Vec<f64>,
 }
 
@@ -23,11 +23,11 @@ pub(super) struct UndecidedPoint {
     pub(super) plane: DVec2,
     /// On the sphere.
     pub(super) v: DVec3,
-    /// What makes up for the projection.
+    /// Weight of the projection.
     pub(super) weight: f64,
 }
 
-/// What is known about points from where they lie.
+/// Known position of points.
 pub(super) struct PointClassifier<'a> {
     projection: Projection,
     frame: &'a AxisRotation,
@@ -96,7 +96,7 @@ impl Lifted {
         dispatch(Lifting { points, known, ask, lifted: self });
     }
 
-    /// How many there are.
+    /// Number of terms.
     pub(super) fn count(&self) -> usize {
         self.count
     }

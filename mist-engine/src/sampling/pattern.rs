@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::{points::PlanePoints, truncated};
 
-/// Where the points of a disk lie.
+/// Arrangement of the points of a disk.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum PointPattern {
     /// One point, the centre.

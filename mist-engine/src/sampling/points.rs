@@ -25,7 +25,7 @@ impl PlanePoints {
         self.count = self.y.len();
     }
 
-    /// How many points there are.
+    /// Number of points.
     pub(super) fn count(&self) -> usize {
         self.count
     }

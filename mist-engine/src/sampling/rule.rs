@@ -6,7 +6,7 @@
 use super::{adaptive::Accuracy, projection::Projection};
 use crate::region::RegionError;
 
-/// How the directions of an integral are chosen.
+/// Rule by which the directions of an integral are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SamplingRule {
     /// A square grid in a plane that is projected onto the sphere.
@@ -50,7 +50,7 @@ pub struct PlaneSampling {
     pub differential: f64,
     /// Smallest number of directions in the cone around a region.
     pub min_samples: i32,
-    /// Whether the weights are scaled so that they sum to the projected solid angle of the region;
+    /// True if the weights are scaled so that they sum to the projected solid angle of the region;
     /// without it a point stands for its share of the plane.
     pub is_normalized: bool,
     /// The outlines of circles and hemispheres.

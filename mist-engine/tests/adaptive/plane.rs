@@ -171,7 +171,7 @@ impl Plane {
     }
 }
 
-/// Where `is` changes around the circle, to the last bit; 0 and other likely places lie between
+/// Places at which `is` changes around the circle, to the last bit; 0 and other likely ones lie between
 /// two steps.
 fn changes(is: &dyn Fn(f64) -> bool) -> Vec<f64> {
     const STEPS: usize = 4000;

@@ -99,7 +99,7 @@ fn apertures(theta: f64, wide: f64) -> Vec<(&'static str, Region)> {
 /// References are known to this part of the integral for unpolarized light.
 const KNOWN: f64 = 1e-10;
 
-/// What [`plane::integral`] gives, by the name of the lobe and of the aperture: [`ELEMENTS`].
+/// Values of [`plane::integral`], by the name of the lobe and of the aperture: [`ELEMENTS`].
 const REFERENCES: &str = include_str!("references.txt");
 
 /// A lobe around a mirror direction.

@@ -20,7 +20,7 @@ pub(crate) struct PolygonCells {
     cells: Vec<CellContent>,
 }
 
-/// What is known about the points of a cell.
+/// Known position of the points of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CellContent {
     /// They are inside.

@@ -11,7 +11,7 @@ pub(super) struct Slabs {
     low: f64,
     high: f64,
     per_x: f64,
-    /// Where the edges of each slab begin in the list, and behind the last one where they end.
+    /// Starts of the edges of each slab in the list, and after the last one their end.
     starts: Vec<u32>,
     /// The numbers of the edges, slab after slab.
     edges: Vec<u32>,
@@ -58,7 +58,7 @@ impl Slabs {
         (((x - self.low) * self.per_x) as usize).min(self.starts.len() - 2)
     }
 
-    /// Whether `p` is inside of the polygon with these vertices.
+    /// True if `p` is inside of the polygon with these vertices.
     #[inline]
     pub(super) fn contain(&self, vertices: &[DVec2], p: DVec2) -> bool {
         if self.starts.is_empty() || !(self.low <= p.x && p.x <= self.high) {

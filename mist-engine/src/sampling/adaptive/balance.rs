@@ -6,7 +6,7 @@
 
 use super::{MeasuredCell, cell::CubatureCell};
 
-/// How much longer than its neighbour a cell may be: its eight nodes are still no further
+/// Largest ratio of the length of a cell to that of its neighbour: its eight nodes are no further
 /// apart than the shorter one is long.
 const RATIO: f64 = 8.0;
 
@@ -16,7 +16,7 @@ struct CellSide {
     line: (usize, usize, f64),
     /// From where to where along the line.
     reach: (f64, f64),
-    /// Whether the cell begins here or ends.
+    /// True if the cell begins here or ends.
     begins: bool,
     cell: usize,
 }

@@ -25,23 +25,23 @@ pub(super) struct Circle {
     cos: f64,
 }
 
-/// What belongs to the region, above the horizon.
+/// Part of the region above the horizon.
 #[derive(Clone, Debug)]
 enum Interior {
-    /// What is inside of all edges, or of all but the last one, which is an `inner` rim.
+    /// Region inside of all edges, or of all but the last one, which is an `inner` rim.
     Caps { inner: bool },
-    /// What the polygon contains in the projection.
+    /// Region that the polygon contains in the projection.
     Polygon(Polygon),
 }
 
-/// What bounds a region.
+/// Boundary of a region.
 #[derive(Clone, Debug)]
 pub(super) struct RegionBoundary {
     /// The edges, then the rims of supports.
     pub(super) circles: Vec<Circle>,
     edges: usize,
     inside: Interior,
-    /// Where circles cross.
+    /// Intersections of circles.
     pub(super) corners: Vec<DVec3>,
 }
 
@@ -58,7 +58,7 @@ struct Arc {
 }
 
 impl Arc {
-    /// Where the ray at 0 < t < π crosses the circle.
+    /// Intersections of the ray at 0 < t < π with the circle.
     fn crossings(self) -> impl Iterator<Item = f64> {
         let ends = [self.middle - self.half, self.middle + self.half];
         let ahead = ends.map(|t| if t < 0.0 { t + TAU } else { t });
@@ -160,7 +160,7 @@ impl RegionBoundary {
         found
     }
 
-    /// Whether the point at `t` of a ray, which has these arcs, belongs to the region.
+    /// True if the point at `t` of a ray, which has these arcs, belongs to the region.
     fn holds(&self, (pole, across): (DVec3, DVec3), arcs: &[Arc], t: f64) -> bool {
         match &self.inside {
             Interior::Caps { inner } => {
@@ -175,7 +175,7 @@ impl RegionBoundary {
     }
 }
 
-/// Where two circles cross.
+/// Intersections of two circles.
 fn common_points(first: &Circle, second: &Circle) -> Vec<DVec3> {
     let (m, n) = (first.normal, second.normal);
     let (k, axis) = (m.dot(n), m.cross(n));

@@ -41,7 +41,7 @@ impl CubatureCell {
         [Self { u: (self.u.0, middle), ..self }, Self { u: (middle, self.u.1), ..self }]
     }
 
-    /// Whether its nodes lie on the same rays as those of `other`.
+    /// True if its nodes lie on the same rays as those of `other`.
     pub(super) fn shares_rays(&self, other: &Self) -> bool {
         (self.slice, self.interval, self.s) == (other.slice, other.interval, other.s)
     }
@@ -104,7 +104,7 @@ fn judge(cell: CubatureCell, values: &[Mueller; NODES]) -> MeasuredCell {
     MeasuredCell { cell, matrix, error: along_p + along_t, along_p: along.0 > along.1 }
 }
 
-/// What the rule makes of the values of a cell.
+/// Estimate of the rule from the values of a cell.
 #[derive(Default)]
 struct RuleSums {
     matrix: Mueller,

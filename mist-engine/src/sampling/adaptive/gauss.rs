@@ -30,7 +30,7 @@ pub(super) const WEIGHT: [f64; SIDE] = [
     0.101_228_536_290_376_259,
 ];
 
-/// What takes the coefficients 1 to 7 of a series of Legendre polynomials out of the values at the
+/// Matrix from the coefficients 1 to 7 of a series of Legendre polynomials to the values at the
 /// nodes: (2n + 1)/2 · weight · P(node).
 const COEFFICIENTS: [[f64; SIDE]; SIDE - 1] = coefficients();
 
@@ -98,10 +98,10 @@ const LASTING: f64 = 0.5;
 /// The ratio of two pairs from which on coefficients fall slowly.
 const SLOW: f64 = 0.35;
 
-/// How much more slowly they may seem to fall; beyond that the ratio says nothing.
+/// Largest apparent ratio of successive coefficients; beyond that the ratio is not used.
 const MOST: f64 = 1.5;
 
-/// How much larger than the last coefficients the error of a slowly falling series may be.
+/// Largest ratio of the error of a slowly decreasing series to its last coefficients.
 const SAFETY: f64 = 4.0;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! How wide the peaks of an integrand are, from a few evaluations around the likely places.
+//! Widths of the peaks of an integrand, from a few evaluations around the likely places.
 //!
 //! Rings of radii r₀, 3r₀, 9r₀, … around a direction show how far the values have moved from
 //! those of the smallest ring. While the rings are small against everything that happens there,

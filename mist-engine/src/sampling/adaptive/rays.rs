@@ -22,7 +22,7 @@ pub(super) struct Rays {
     pole: DVec3,
     /// Azimuth 0 and π/2 around the pole.
     across: (DVec3, DVec3),
-    /// What counts as near to the pole, rad: ε of t = ε sinh w.
+    /// Distance that counts as near to the pole, rad: ε of t = ε sinh w.
     near: f64,
     boundary: RegionBoundary,
     pub(super) slices: Vec<AzimuthSlice>,

@@ -16,7 +16,7 @@ const WIDEST: f64 = FRAC_PI_2;
 pub(super) struct AzimuthSlice {
     from: f64,
     to: f64,
-    /// How far before it and behind it a ray touches a circle, rad, if any does.
+    /// Distances before and after it at which a ray touches a circle, rad, if any does.
     touching: Option<(f64, f64)>,
 }
 
@@ -51,7 +51,7 @@ impl AzimuthSlice {
         (from + (to - from) * 0.5 * (1.0 - cos), (to - from) * 0.5 * PI * sin)
     }
 
-    /// Whether `s` is so wide that a ray which touches a circle just outside of the slice could
+    /// True if `s` is so wide that a ray which touches a circle just outside of the slice could
     /// hide between the nodes: the lengths of intervals go like a square root there, that of s² + h².
     pub(super) fn hides(&self, s: (f64, f64)) -> bool {
         let Some((before, behind)) = self.touching else { return false };
