@@ -12,7 +12,7 @@ use super::{
     error::{CommandError, ExitStatus},
     input::InputText,
     output::print,
-    vary::{self, Vary},
+    vary::{self, VaryArgs},
 };
 
 /// Fit variables of a program to measured values.
@@ -33,7 +33,7 @@ The intervals are those of Student's t with the scatter of the residuals; with -
 uncertainties in the file are taken as standard deviations.")]
 pub(super) struct FitArgs {
     #[command(flatten)]
-    vary: Vary,
+    vary: VaryArgs,
     /// Table of measured values.
     #[arg(long, value_name = "FILE")]
     measured: PathBuf,

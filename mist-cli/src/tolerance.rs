@@ -10,7 +10,7 @@ use super::{
     error::{CommandError, ExitStatus},
     input::InputText,
     output::print,
-    vary::{self, Vary},
+    vary::{self, VaryArgs},
 };
 
 /// Tell how far colours move (CIEDE2000) when variables change.
@@ -25,7 +25,7 @@ Examples:
   mist tolerance gold.mist --vary sdf.s,incidentangle --step 0.01 --json")]
 pub(super) struct ToleranceArgs {
     #[command(flatten)]
-    vary: Vary,
+    vary: VaryArgs,
     /// Step of the differences, relative to the value (absolute for a value of 0).
     #[arg(long, value_name = "STEP", default_value_t = 1e-3)]
     step: f64,

@@ -19,7 +19,7 @@ use super::{
 
 /// A program and the variables that change.
 #[derive(clap::Args)]
-pub(super) struct Vary {
+pub(super) struct VaryArgs {
     /// The program.
     pub(super) program: PathBuf,
     /// Names of variables in VARIABLES; parameters of the model with or without their #.
@@ -33,7 +33,7 @@ pub(super) struct Vary {
     pub(super) json: JsonFlag,
 }
 
-impl Vary {
+impl VaryArgs {
     /// The program of `source` as a function of its variables.
     pub(super) fn open(&self, source: &InputText) -> Result<ProgramFunction, CommandError> {
         let files = DiskFiles::beside(&self.program).shared();

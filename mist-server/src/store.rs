@@ -5,7 +5,7 @@
 
 use std::{
     fmt, io,
-    path::Path,
+    path::{Path, PathBuf},
     sync::{Arc, PoisonError, RwLock},
 };
 
@@ -30,10 +30,10 @@ const TEXTS: TableDefinition<'_, (&str, &str), &str> = TableDefinition::new("tex
 
 type Open = dyn Fn() -> Result<Database, DatabaseError> + Send + Sync;
 
-/// The materials and jobs that are kept.
+/// Stored materials and jobs.
 #[derive(Clone)]
 pub(crate) struct Store {
-    /// None after a failure, until it is opened again.
+    /// `None` after a failure, until it is opened again.
     database: Arc<RwLock<Option<Database>>>,
     open: Arc<Open>,
 }
@@ -44,14 +44,35 @@ impl fmt::Debug for Store {
     }
 }
 
-/// Why something cannot be kept or read.
+/// The reason why the store cannot be used.
 #[derive(Debug, thiserror::Error)]
-#[error("what the service keeps cannot be read or written: {0}")]
-pub(crate) struct StoreError(Box<redb::Error>);
+pub(crate) enum StoreError {
+    /// It cannot be read or written.
+    #[error("the store cannot be read or written: {0}")]
+    Database(Box<redb::Error>),
+    /// Another service has its file open.
+    #[error(
+        "the store {path} is open in another service: stop that one, or give another --data",
+        path = .0.display()
+    )]
+    InUse(PathBuf),
+    /// Its file cannot be opened.
+    #[error(
+        "the store {path} cannot be opened: {source}; if it is no store of this version, move it \
+         away, and the service starts with an empty one",
+        path = .path.display()
+    )]
+    Unusable {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: Box<redb::Error>,
+    },
+}
 
 impl<E: Into<redb::Error>> From<E> for StoreError {
     fn from(error: E) -> Self {
-        Self(Box::new(error.into()))
+        Self::Database(Box::new(error.into()))
     }
 }
 
@@ -65,7 +86,19 @@ impl StoreError {
     /// True if the database must be opened again before it can be used.
     fn is_final(&self) -> bool {
         use redb::Error::{DatabaseClosed, Io, LockPoisoned, PreviousIo};
-        matches!(*self.0, Io(_) | PreviousIo | DatabaseClosed | LockPoisoned(_))
+        let Self::Database(error) = self else { return false };
+        matches!(**error, Io(_) | PreviousIo | DatabaseClosed | LockPoisoned(_))
+    }
+
+    /// The same error of the first use of the file at `path`, with a remedy.
+    fn of_opening(self, path: &Path) -> Self {
+        match self {
+            Self::Database(error) if matches!(*error, redb::Error::DatabaseAlreadyOpen) => {
+                Self::InUse(path.to_owned())
+            }
+            Self::Database(source) => Self::Unusable { path: path.to_owned(), source },
+            other => other,
+        }
     }
 }
 
@@ -81,7 +114,8 @@ impl Store {
             Some(folder) => {
                 std::fs::create_dir_all(folder).map_err(StorageError::Io)?;
                 let path = folder.join(FILE);
-                Self::on(move || Database::create(&path))
+                let file = path.clone();
+                Self::on(move || Database::create(&file)).map_err(|error| error.of_opening(&path))
             }
         }
     }
@@ -107,7 +141,7 @@ impl Store {
         self.pairs(MATERIALS)
     }
 
-    /// Keeps the body of a material.
+    /// Stores the body of a material.
     pub(crate) fn put_material(&self, name: &str, body: &str) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(MATERIALS)?.insert(name, body)?;
@@ -115,7 +149,7 @@ impl Store {
         })
     }
 
-    /// Forgets a material.
+    /// Removes a material.
     pub(crate) fn remove_material(&self, name: &str) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(MATERIALS)?.remove(name)?;
@@ -128,7 +162,7 @@ impl Store {
         self.pairs(JOBS)
     }
 
-    /// Keeps the record and the program of a new job.
+    /// Stores the record and the program of a new job.
     pub(crate) fn put_job(&self, id: &str, record: &str, program: &str) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(JOBS)?.insert(id, record)?;
@@ -145,7 +179,7 @@ impl Store {
         })
     }
 
-    /// Keeps the record and the texts of a job that is over; its steps are not needed any more.
+    /// Stores the record and the texts of a job that is over; its steps are not needed any more.
     pub(crate) fn finish_job(
         &self,
         id: &str,
@@ -162,7 +196,7 @@ impl Store {
         })
     }
 
-    /// Forgets a job with all that belongs to it.
+    /// Removes a job with all that belongs to it.
     pub(crate) fn remove_job(&self, id: &str) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(JOBS)?.remove(id)?;
@@ -187,7 +221,7 @@ impl Store {
         })
     }
 
-    /// Keeps finished steps of a job, the first of them number `first`.
+    /// Stores finished steps of a job, the first of them number `first`.
     pub(crate) fn put_steps(
         &self,
         id: &str,
@@ -332,12 +366,21 @@ mod tests {
     }
 
     #[test]
+    fn a_file_that_is_no_store_is_refused_with_its_name_and_a_remedy() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join(FILE), "x".repeat(10_000)).unwrap();
+        let error = Store::new(Some(folder.path())).unwrap_err().to_string();
+        assert!(error.contains(FILE) && error.contains("move it away"), "{error}");
+    }
+
+    #[test]
     fn a_folder_keeps_what_was_put_into_it() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::new(Some(folder.path())).unwrap();
         store.put_job("a", "{}", "program").unwrap();
         store.put_steps("a", 3, &[vec![1], vec![2]]).unwrap();
-        assert!(Store::new(Some(folder.path())).is_err(), "two services with one file");
+        let second = Store::new(Some(folder.path())).unwrap_err().to_string();
+        assert!(second.contains("another service"), "{second}");
         drop(store);
         let store = Store::new(Some(folder.path())).unwrap();
         assert_eq!(store.step("a", 4).unwrap(), Some(vec![2]));

@@ -1,4 +1,4 @@
-//! The OpenAPI document is the one in `docs`, and says what it should.
+//! The OpenAPI document is the one in `docs`, and is complete.
 
 use std::fs;
 
@@ -20,5 +20,19 @@ fn every_address_says_what_may_go_wrong() {
             assert!(problem.is_object(), "{method} {path}");
             assert!(operation["summary"].is_string(), "{method} {path}");
         }
+    }
+}
+
+#[test]
+fn every_format_is_in_the_description_and_in_the_document() {
+    let document: serde_json::Value = serde_json::from_str(&mist_server::http::openapi()).unwrap();
+    let path = &document["paths"]["/v1/materials/{name}/{file}"]["get"]["parameters"];
+    let file = path.as_array().unwrap().iter().find(|each| each["name"] == "file").unwrap();
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/http.md")).unwrap();
+    for format in rise_bridge::formats::FORMATS {
+        let extension = format!(".{}`", format.extension);
+        let description = file["description"].as_str().unwrap();
+        assert!(description.contains(&extension), "{extension} in {description}");
+        assert!(text.contains(&format!(".{}", format.extension)), "{extension} in docs/http.md");
     }
 }
