@@ -28,11 +28,11 @@ Examples:
   mist diff test.exr reference.exr --compat --json --display-size 0.375x0.300 --display-pixels 1280x1024 --distance 0.5
   mist diff test.hdr reference.hdr --scale 179 --map seen.png --overlay where.png")]
 pub(super) struct DiffArgs {
-    /// Picture that is judged: .png, .exr, .hdr, .pfm.
+    /// Picture to judge: .png, .exr, .hdr, .pfm.
     test: PathBuf,
     /// Picture that it should look like.
     reference: PathBuf,
-    /// Repeat the two habits of HDR-VDP 1.7 that make its numbers.
+    /// Reproduce the two deviations of HDR-VDP 1.7 on which its numbers depend.
     #[arg(long)]
     compat: bool,
     #[command(flatten)]

@@ -48,9 +48,9 @@ pub(super) struct ExportArgs {
     format: Option<&'static FileFormat>,
     #[command(flatten)]
     lambda: LambdaFlag,
-    /// Nodes of the table, or auto:PERCENT, the smallest grid on which 95 % of the light is nearer
-    /// than that. pbsdf: phi_d x theta_d x theta_h (37x46x91). bsdf: theta_i x side of an image
-    /// (24x64), or phi_i x theta_i x side (37x20x48). GoniometerTable tables: degrees
+    /// Nodes of the table, or auto:PERCENT, the smallest grid on which 95 % of the light has a
+    /// smaller error. pbsdf: phi_d x theta_d x theta_h (37x46x91). bsdf: theta_i x side of an image
+    /// (24x64), or phi_i x theta_i x side (37x20x48). Goniometer tables: degrees
     /// [thetai=0:10:80,thetas=0:5:85,phis=0:10:180].
     #[arg(long, value_name = "GRID")]
     grid: Option<String>,
@@ -63,7 +63,7 @@ pub(super) struct ExportArgs {
     /// Linear sRGB under D65 instead of spectra (bsdf).
     #[arg(long, conflicts_with = "spectral")]
     rgb: bool,
-    /// Spectra; what bsdf has without --rgb.
+    /// Spectra: the default of bsdf.
     #[arg(long)]
     spectral: bool,
     /// Compare this .pbsdf, measured or computed, with the material; nothing is written.

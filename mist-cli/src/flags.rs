@@ -45,7 +45,7 @@ impl EngineFlags {
 /// The flag `--lambda`; each command has its own default.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct LambdaFlag {
-    /// Wavelengths in nm: a list, FIRST:STEP:LAST, or both mixed [default: see above].
+    /// Wavelengths in nm: a list, FIRST:STEP:LAST, or both mixed [default: see --help].
     #[arg(long, alias = "wavelengths", value_name = "NM")]
     pub(super) lambda: Option<String>,
 }
@@ -60,7 +60,8 @@ impl LambdaFlag {
 /// The flag `--illuminant`.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct IlluminantFlag {
-    /// Light of the colours: CIE name, colour temperature, D(temperature), or a file.
+    /// Light of the colours: CIE name, colour temperature or D(temperature); for table and preview
+    /// also a file.
     #[arg(long, default_value = "D65")]
     pub(super) illuminant: String,
 }

@@ -49,12 +49,12 @@ pub(super) struct PreviewArgs {
         allow_hyphen_values = true
     )]
     lamp: Vec<String>,
-    /// Radiance of a uniform sky: what a white diffuser has from it [default: 0; with --environment
-    /// what its luminances are multiplied by, 1].
+    /// Radiance of a white diffuser under a uniform sky [default: 0; with --environment the factor of
+    /// its luminances, 1].
     #[arg(long, value_name = "FACTOR")]
     sky: Option<f64>,
     /// A picture of the sky in all directions (EXR, HDR, PNG, PFM): azimuth over the columns, the
-    /// zenith in the first row; its middle is what the camera looks at.
+    /// zenith in the first row; the camera looks at its middle.
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
     /// Points of the body light each other, once.

@@ -12,7 +12,7 @@ pub(super) const LAMBDA: &str = "380:10:780";
 
 /// Compute the materials of a RISE scene and write the scene with their tables.
 ///
-/// Materials are scene_materials in comments `# mist: NAME = VALUE` inside their chunks; with --derive
+/// Materials are described in comments `# mist: NAME = VALUE` inside their chunks; with --derive
 /// also lambertian_material, cooktorrance_material and ggx_material by RISE's own parameters. For
 /// each one a MIST program over the rings of its table is written and run, and its results become a
 /// .RISEdataBSDF file: docs/formats/rise.md. Without --lambda the wavelengths are 380:10:780.
