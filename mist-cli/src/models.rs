@@ -1,12 +1,12 @@
 //! `mist models`: what the registry knows.
 
-use scattering::{Class, Family, spec};
+use scattering::{Class, registry};
 
 use super::{error::CommandError, flags::JsonFlag, output::print};
 
 mod json;
+mod kinds;
 mod markdown;
-mod names;
 mod text;
 
 /// List the models and what they are made of, or describe one.
@@ -40,8 +40,8 @@ pub(super) fn models(args: &ModelsArgs) -> Result<(), CommandError> {
 }
 
 fn find(name: &str) -> Result<&'static Class, CommandError> {
-    spec::find_class(name).ok_or_else(|| {
-        let all = Family::ALL.iter().flat_map(|family| family.classes()).map(|class| class.name);
+    registry::find_class(name).ok_or_else(|| {
+        let all = registry::classes().map(|class| class.name);
         let hint = mist_format::suggestion::did_you_mean(name, all);
         let hint = hint.unwrap_or_else(|| "`mist models` lists all".into());
         CommandError::Refused(format!("there is no model called {name:?}: {hint}"))

@@ -1,14 +1,14 @@
 //! The registry of models as JSON: for programs, for editors, for a page.
 
 use mist_format::suggestion::did_you_mean;
-use scattering::{Class, Family, Parameter, spec::ParameterKind};
+use scattering::{Class, Parameter, registry, spec::ParameterKind};
 use serde_json::{Map, Value, json};
 
 /// All classes, by family.
 pub fn list() -> Value {
-    let families = Family::ALL.iter().map(|family| {
+    let families = registry::FAMILIES.iter().map(|family| {
         let classes: Vec<Value> = family.classes().into_iter().map(class).collect();
-        json!({ "base": family.base(), "classes": classes })
+        json!({ "base": family.base, "classes": classes })
     });
     json!({ "families": families.collect::<Vec<_>>() })
 }
@@ -27,7 +27,7 @@ pub fn class(class: &Class) -> Value {
 
 /// The message for the name of a class that does not exist.
 pub fn unknown(name: &str) -> String {
-    let all = Family::ALL.iter().flat_map(|family| family.classes()).map(|class| class.name);
+    let all = registry::classes().map(|class| class.name);
     let hint = did_you_mean(name, all).map_or_else(String::new, |hint| format!("; {hint}"));
     format!("model called {name:?}{hint}")
 }
@@ -62,15 +62,13 @@ fn property(param: &Parameter) -> Value {
         "x-unit": param.unit,
     });
     match param.kind {
-        ParameterKind::Number => property["type"] = json!(["number", "string"]),
-        ParameterKind::Integer => property["type"] = json!(["integer", "string"]),
-        ParameterKind::Member(family, base) => {
+        ParameterKind::Number(_) => property["type"] = json!(["number", "string"]),
+        ParameterKind::Integer(_) => property["type"] = json!(["integer", "string"]),
+        ParameterKind::Member { family, base, .. } => {
             property["type"] = json!("string");
             property["x-base"] = json!(base);
-            let members = family
-                .classes()
-                .into_iter()
-                .filter(|class| scattering::spec::is_below(class.name, base) || class.name == base);
+            let members =
+                family.classes().into_iter().filter(|class| family.is_below(class.name, base));
             let names: Vec<&str> = members.map(|class| class.name).collect();
             property["enum"] = json!(names);
         }
@@ -81,12 +79,11 @@ fn property(param: &Parameter) -> Value {
 
 /// The default as a number where it is one.
 fn default(param: &Parameter) -> Value {
-    let number = match param.kind {
-        ParameterKind::Integer => param.default.parse().ok().map(|n: i64| json!(n)),
-        ParameterKind::Number => param.default.parse().ok().map(|x: f64| json!(x)),
-        _ => None,
-    };
-    number.unwrap_or_else(|| json!(param.default))
+    match param.kind {
+        ParameterKind::Integer(i) => json!(i),
+        ParameterKind::Number(x) => json!(x),
+        kind => json!(kind.default_text()),
+    }
 }
 
 fn parameter(param: &Parameter) -> Value {
@@ -95,7 +92,7 @@ fn parameter(param: &Parameter) -> Value {
         "name": param.name,
         "kind": kind,
         "base": base,
-        "default": param.default,
+        "default": param.kind.default_text(),
         "unit": param.unit,
         "doc": param.doc,
     })
@@ -104,15 +101,15 @@ fn parameter(param: &Parameter) -> Value {
 /// The kind of a parameter, and the base of its classes if it is an object.
 fn kind(kind: ParameterKind) -> (&'static str, Option<&'static str>) {
     match kind {
-        ParameterKind::Number => ("number", None),
-        ParameterKind::Integer => ("integer", None),
+        ParameterKind::Number(_) => ("number", None),
+        ParameterKind::Integer(_) => ("integer", None),
         ParameterKind::Text => ("text", None),
         ParameterKind::File => ("file", None),
-        ParameterKind::Formula => ("formula", None),
-        ParameterKind::Index => ("index", None),
-        ParameterKind::Table => ("table", None),
+        ParameterKind::Formula(_) => ("formula", None),
+        ParameterKind::Index { .. } => ("index", None),
+        ParameterKind::Table(_) => ("table", None),
         ParameterKind::Films => ("films", None),
-        ParameterKind::Member(_, base) => ("member", Some(base)),
+        ParameterKind::Member { base, .. } => ("member", Some(base)),
     }
 }
 
@@ -122,17 +119,16 @@ mod tests {
 
     #[test]
     fn the_schema_of_every_class_has_its_parameters_with_defaults_and_units() {
-        for class in Family::ALL.iter().flat_map(|family| family.classes()) {
+        for class in registry::classes() {
             let schema = schema(class);
             for param in class.parameters() {
                 let property = &schema["properties"][param.name];
                 assert_eq!(property["x-unit"], json!(param.unit), "{}", class.name);
                 assert!(!property["default"].is_null(), "{} {}", class.name, param.name);
-                if let ParameterKind::Member(..) = param.kind {
+                if let ParameterKind::Member { default, .. } = param.kind {
                     let names = property["enum"].as_array().unwrap();
-                    let default = param.default.split_whitespace().next().unwrap_or("");
                     assert!(
-                        default.is_empty() || names.iter().any(|name| name == default),
+                        names.iter().any(|name| name == default),
                         "{} {}: {default}",
                         class.name,
                         param.name

@@ -5,14 +5,14 @@ use std::hint::black_box;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use scattering::{
     Basis, Direction, Incidence, Mode, Model, Mueller, ParameterNode, ParameterValue, models,
-    optics::RefractiveIndex, spec, stack::Film,
+    optics::RefractiveIndex, stack::Film,
 };
 
 /// Directions in a batch: enough to hide the call, few enough to stay in the cache.
 const BATCH: usize = 1024;
 
 fn class(name: &str) -> ParameterNode {
-    ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+    ParameterNode::with_defaults(scattering::registry::find_class(name).unwrap(), Mode::Sound)
 }
 
 fn facet(index: RefractiveIndex, films: Vec<Film>) -> Model {

@@ -1,44 +1,29 @@
 //! Densities of a particle diameter.
 
-use crate::spec::{Family, Member, ParameterError, ParameterNode, Spec};
+use crate::spec::{Member, Spec};
 
 pub mod bimodal;
+mod family;
 pub mod log_normal;
 pub mod modified_gamma;
 pub mod normal;
 pub mod weibull;
 
-/// A probability density of a diameter.
-pub trait Distribution: Send + Sync {
-    /// Density in 1/µm at the diameter `d` µm.
-    fn density(&self, d: f64) -> f64;
-}
+use family::positive;
+pub use family::{Distribution, FAMILY};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Distribution>] =
     &[&log_normal::SPEC, &normal::SPEC, &weibull::SPEC, &modified_gamma::SPEC, &bimodal::SPEC];
 
 impl Member for dyn Distribution {
-    const FAMILY: Family = Family::Distribution;
-
-    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
-        Box::new(ALL.iter().copied())
-    }
-}
-
-/// The number `name`, which has to be positive and finite.
-fn positive(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
-    let x = node.number(name);
-    if x > 0.0 && x.is_finite() {
-        return Ok(x);
-    }
-    Err(ParameterError::new(name, format!("{x} is not positive")))
+    const CLASSES: &'static [&'static [&'static Spec<Self>]] = &[ALL];
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Defect, Mode, special::gauss};
+    use crate::{Defect, Mode, ParameterNode, special::gauss};
 
     fn integral(spec: &Spec<dyn Distribution>, node: &ParameterNode) -> f64 {
         let distribution = (spec.build)(node).unwrap();
@@ -67,6 +52,6 @@ mod tests {
         assert!((integral(spec, &compat) - 2.0).abs() < 1e-9);
         let sound = ParameterNode::with_defaults(&spec.class, Mode::Sound);
         assert!((integral(spec, &sound) - 1.0).abs() < 1e-9);
-        assert!(sound.met.lock().unwrap().contains(&Defect::GammaNorm.into()));
+        assert!(sound.notices.lock().unwrap().contains(&Defect::GammaNorm.into()));
     }
 }

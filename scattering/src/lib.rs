@@ -32,6 +32,7 @@ pub mod polarized_phase;
 pub mod psd;
 pub mod rcw;
 pub mod reflectance;
+pub mod registry;
 pub mod scatterer;
 pub mod shadow;
 pub mod shape;

@@ -1,9 +1,9 @@
-//! Reflection and transmission by interfaces and films, and the material data for them.
+//! Reflection and transmission by interfaces and films, and the optical constants they need.
 
 pub mod film;
 pub mod first_order;
+mod function;
 mod index;
-mod table;
 
-pub use index::RefractiveIndex;
-pub use table::{AbscissaScale, RealFunction, TableInterpolation};
+pub use function::{AbscissaScale, FormulaFn, RealFunction, TableInterpolation};
+pub use index::{Film, RefractiveIndex};

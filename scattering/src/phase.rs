@@ -1,7 +1,8 @@
 //! Scalar phase functions: the density of directions after one scattering event.
 
-use crate::spec::{Family, Member, Spec};
+use crate::spec::{Member, Spec};
 
+mod family;
 pub mod gaussian;
 pub mod henyey_greenstein;
 pub mod isotropic;
@@ -10,11 +11,7 @@ pub mod rayleigh;
 pub mod reynolds_mccormick;
 pub mod table;
 
-/// A scalar phase function in 1/sr.
-pub trait Phase: Send + Sync {
-    /// p at the cosine of the scattering angle; ∫ p dΩ = 1 where a class says so.
-    fn at_cosine(&self, cos: f64) -> f64;
-}
+pub use family::{FAMILY, Phase};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Phase>] = &[
@@ -30,11 +27,7 @@ pub const ALL: &[&Spec<dyn Phase>] = &[
 ];
 
 impl Member for dyn Phase {
-    const FAMILY: Family = Family::Phase;
-
-    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
-        Box::new(ALL.iter().copied())
-    }
+    const CLASSES: &'static [&'static [&'static Spec<Self>]] = &[ALL];
 }
 
 #[cfg(test)]
@@ -45,7 +38,8 @@ mod tests {
 
     /// ∫ p dΩ of the class `name`.
     fn integral(name: &str, mode: Mode, values: &[(&str, f64)]) -> f64 {
-        let mut node = ParameterNode::with_defaults(spec::find_class(name).unwrap(), mode);
+        let mut node =
+            ParameterNode::with_defaults(crate::registry::find_class(name).unwrap(), mode);
         for (parameter, value) in values {
             node = node.with(parameter, ParameterValue::Number(*value)).unwrap();
         }
@@ -102,9 +96,12 @@ mod tests {
             ("Reynolds_McCormick_Phase_Function", "alpha", f64::INFINITY),
             ("Gaussian_Phase_Function", "width", 0.0),
         ] {
-            let node = ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
-                .with(parameter, ParameterValue::Number(value))
-                .unwrap();
+            let node = ParameterNode::with_defaults(
+                crate::registry::find_class(name).unwrap(),
+                Mode::Sound,
+            )
+            .with(parameter, ParameterValue::Number(value))
+            .unwrap();
             let error = spec::build::<dyn super::Phase>(&node).err().expect(name);
             assert_eq!(error.parameter, parameter);
         }

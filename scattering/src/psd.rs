@@ -5,12 +5,13 @@
 //! covered with independent features at random places (mesas, pyramids, dimples) are the areal
 //! density of the features times |FT|² of one of them.
 
-use crate::spec::{Family, Member, ParameterError, ParameterNode, Spec};
+use crate::spec::{Member, Spec};
 
 pub mod abc;
 pub mod double;
 pub mod elliptic;
 pub mod elliptical_mesa;
+mod family;
 pub mod fractal;
 pub mod gaussian;
 pub mod parabolic_dimple;
@@ -22,11 +23,8 @@ pub mod triangular_mesa;
 pub mod triangular_pyramid;
 pub mod unit;
 
-/// A two-dimensional power spectral density of surface height.
-pub trait Psd: Send + Sync {
-    /// PSD(f_x, f_y) in µm⁴, spatial frequencies in 1/µm in the frame of the sample.
-    fn density(&self, fx: f64, fy: f64) -> f64;
-}
+pub use family::{FAMILY, Psd};
+use family::{sinc, strength};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Psd>] = &[
@@ -45,25 +43,7 @@ pub const ALL: &[&Spec<dyn Psd>] = &[
 ];
 
 impl Member for dyn Psd {
-    const FAMILY: Family = Family::Psd;
-
-    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
-        Box::new(ALL.iter().copied())
-    }
-}
-
-/// The number `name`, which must not make the density negative.
-fn strength(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
-    let value = node.number(name);
-    if value >= 0.0 {
-        return Ok(value);
-    }
-    Err(ParameterError::new(name, format!("{value} would make the spectral density negative")))
-}
-
-/// sin x / x.
-fn sinc(x: f64) -> f64 {
-    if x == 0.0 { 1.0 } else { x.sin() / x }
+    const CLASSES: &'static [&'static [&'static Spec<Self>]] = &[ALL];
 }
 
 #[cfg(test)]
@@ -76,7 +56,7 @@ mod tests {
 
     /// A class at its defaults but for these numbers.
     pub(super) fn build(name: &str, mode: Mode, numbers: &[(&str, f64)]) -> Box<dyn Psd> {
-        let class = spec::find_class(name).unwrap();
+        let class = crate::registry::find_class(name).unwrap();
         let node =
             numbers.iter().fold(ParameterNode::with_defaults(class, mode), |node, (name, x)| {
                 node.with(name, ParameterValue::Number(*x)).unwrap()
@@ -109,7 +89,7 @@ mod tests {
             ("Rectangular_Mesa_PSD_Function", "density"),
             ("Triangular_Pyramid_PSD_Function", "density"),
         ] {
-            let class = spec::find_class(name).unwrap();
+            let class = crate::registry::find_class(name).unwrap();
             let node = ParameterNode::with_defaults(class, Mode::Sound)
                 .with(parameter, ParameterValue::Number(-1.0))
                 .unwrap();

@@ -1,41 +1,17 @@
 //! Spectral reflectances of diffuse bodies.
 
-use crate::{
-    Mode, ParameterError, ParameterNode,
-    spec::{Family, Member, Spec},
-};
+use crate::spec::{Member, Spec};
 
 pub mod equation;
+mod family;
 pub mod kubelka_munk;
 pub mod table;
 
-/// A reflectance as a function of wavelength.
-pub trait Reflectance: Send + Sync {
-    /// R at the vacuum wavelength `lambda` µm.
-    fn at(&self, lambda: f64) -> f64;
-}
-
-/// The reflectance `name` of `node` at the vacuum wavelength `lambda` µm.
-///
-/// # Errors
-///
-/// What its own parameters get wrong; in a sound build a value that is not finite.
-pub fn read(node: &ParameterNode, name: &str, lambda: f64) -> Result<f64, ParameterError> {
-    let reflectance = node.member::<dyn Reflectance>(name)?.at(lambda);
-    if node.mode == Mode::Sound && !reflectance.is_finite() {
-        let problem = format!("{reflectance} at {lambda} um is not a reflectance");
-        return Err(ParameterError::new(name, problem));
-    }
-    Ok(reflectance)
-}
+pub use family::{FAMILY, Reflectance, read};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Reflectance>] = &[&table::SPEC, &equation::SPEC, &kubelka_munk::SPEC];
 
 impl Member for dyn Reflectance {
-    const FAMILY: Family = Family::Reflectance;
-
-    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
-        Box::new(ALL.iter().copied())
-    }
+    const CLASSES: &'static [&'static [&'static Spec<Self>]] = &[ALL];
 }

@@ -1,11 +1,8 @@
 //! Shadowing functions: the fraction of facets that is lit and seen.
 
-use crate::{
-    Direction, Incidence,
-    slope::SlopeDistribution,
-    spec::{Family, Member, ParameterError, Spec},
-};
+use crate::spec::{Member, Spec};
 
+mod family;
 pub mod maxwell_beard;
 pub mod sancer;
 pub mod smith;
@@ -13,29 +10,7 @@ pub mod table;
 pub mod torrance_sparrow;
 pub mod unit;
 
-/// The fraction of facets that both the source and the detector see.
-pub trait Shadow: Send + Sync {
-    /// G for the beam `incidence` (with the rotation of the sample) and the exit `direction`.
-    fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64;
-
-    /// G for many directions of one beam; `out` has the length of `directions`.
-    ///
-    /// Overridden where a batch can share work; the numbers do not change by it.
-    fn fractions(&self, incidence: &Incidence, directions: &[Direction], out: &mut [f64]) {
-        for (fraction, direction) in out.iter_mut().zip(directions) {
-            *fraction = self.fraction(incidence, direction);
-        }
-    }
-
-    /// Takes from the slopes of the facets what its own parameters leave open.
-    ///
-    /// # Errors
-    ///
-    /// If a parameter is left open and the slopes do not determine it.
-    fn adapt(&mut self, _: &dyn SlopeDistribution) -> Result<(), ParameterError> {
-        Ok(())
-    }
-}
+pub use family::{FAMILY, Shadow};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Shadow>] = &[
@@ -48,24 +23,21 @@ pub const ALL: &[&Spec<dyn Shadow>] = &[
 ];
 
 impl Member for dyn Shadow {
-    const FAMILY: Family = Family::Shadow;
-
-    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
-        Box::new(ALL.iter().copied())
-    }
+    const CLASSES: &'static [&'static [&'static Spec<Self>]] = &[ALL];
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Mode, ParameterNode, spec};
+    use crate::{Direction, Incidence, Mode, ParameterNode, slope::SlopeDistribution, spec};
 
     #[test]
     fn every_fraction_is_the_same_for_the_reversed_path() {
-        for class in Family::Shadow.classes() {
+        for class in FAMILY.classes() {
             let node = ParameterNode::with_defaults(class, Mode::Sound);
             let mut shadow = spec::build::<dyn Shadow>(&node).unwrap();
-            let slopes = spec::find_class("Anisotropic_Gaussian_Slope_Distribution_Function");
+            let slopes =
+                crate::registry::find_class("Anisotropic_Gaussian_Slope_Distribution_Function");
             let slopes = ParameterNode::with_defaults(slopes.unwrap(), Mode::Sound);
             shadow.adapt(&*spec::build::<dyn SlopeDistribution>(&slopes).unwrap()).unwrap();
             for (a, b, phi, r) in [(0.5, 1.2, 0.7, 0.3), (1.4, 0.1, -2.3, 1.1)] {

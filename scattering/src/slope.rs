@@ -1,18 +1,13 @@
 //! Slope distributions: the density of facet slopes.
 
-use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
-
-use crate::{
-    Defect,
-    lanes::{LaneKernel, Real, SimdLevel, WIDTH},
-    spec::{Family, Member, ParameterError, ParameterNode, Spec},
-};
+use crate::spec::{Member, Spec};
 
 pub mod anisotropic_exponential;
 pub mod anisotropic_gaussian;
 pub mod ellipsoid;
 pub mod exponential;
 pub mod exponential_angle;
+mod family;
 pub mod gaussian;
 pub mod gaussian_angle;
 pub mod mixture;
@@ -20,46 +15,8 @@ pub mod table;
 pub mod table_angle;
 pub mod unit;
 
-/// A density of facet slopes; ∫∫ S dζ_x dζ_y = 1 where a class says so.
-pub trait SlopeDistribution: Send + Sync {
-    /// S(ζ_x, ζ_y), slopes in the frame of the sample.
-    fn density(&self, zeta_x: f64, zeta_y: f64) -> f64;
-
-    /// Puts S of each of the slopes `zeta` (ζ_x, ζ_y) into `out`, which has their number.
-    ///
-    /// Overridden where a closed form works on several numbers at once; the bits do not change.
-    fn densities(&self, zeta: &[[[f64; WIDTH]; 2]], out: &mut [[f64; WIDTH]]) {
-        for ([x, y], out) in zeta.iter().zip(out) {
-            *out = std::array::from_fn(|k| self.density(x[k], y[k]));
-        }
-    }
-
-    /// Standard deviations of the slopes along x and y, where a closed form gives them.
-    fn deviations(&self) -> Option<(f64, f64)> {
-        None
-    }
-}
-
-/// A density with a closed form for one slope or several.
-trait ClosedForm {
-    fn at<R: Real>(&self, x: R, y: R) -> R;
-}
-
-/// [`SlopeDistribution::densities`] of a closed form.
-struct DensityKernel<'a, S> {
-    form: &'a S,
-    zeta: &'a [[[f64; WIDTH]; 2]],
-    out: &'a mut [[f64; WIDTH]],
-}
-
-impl<S: ClosedForm> LaneKernel for DensityKernel<'_, S> {
-    #[inline(always)]
-    fn run<V: SimdLevel>(self, vectors: V) {
-        for ([x, y], out) in self.zeta.iter().zip(self.out) {
-            *out = vectors.store(self.form.at(vectors.load(x), vectors.load(y)));
-        }
-    }
-}
+use family::{ClosedForm, DensityKernel, ExponentialConstants, by_angle, width};
+pub use family::{FAMILY, SlopeDistribution};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn SlopeDistribution>] = &[
@@ -77,60 +34,18 @@ pub const ALL: &[&Spec<dyn SlopeDistribution>] = &[
 ];
 
 impl Member for dyn SlopeDistribution {
-    const FAMILY: Family = Family::Slope;
-
-    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
-        Box::new(ALL.iter().copied())
-    }
-}
-
-/// The positive parameter `name`.
-fn width(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
-    let x = node.number(name);
-    if x > 0.0 && x.is_finite() {
-        return Ok(x);
-    }
-    Err(ParameterError::new(name, format!("{x} is not positive")))
-}
-
-/// The constants of an exponential density with unit rms.
-struct ExponentialConstants {
-    /// 3/π.
-    norm: f64,
-    /// √6.
-    decay: f64,
-    /// √6 π/2.
-    quarter_turn: f64,
-}
-
-impl ExponentialConstants {
-    fn of(node: &ParameterNode) -> Self {
-        if node.reproduces(Defect::SlopeConstants) {
-            return Self {
-                norm: 0.954929658551,
-                decay: 2.44948974278,
-                quarter_turn: 3.84764949048,
-            };
-        }
-        let decay = 6f64.sqrt();
-        Self { norm: 3.0 * FRAC_1_PI, decay, quarter_turn: decay * FRAC_PI_2 }
-    }
-}
-
-/// S = P(θ_n)/(1 + ζ²)² for a density P of the tilt angle θ_n = atan ζ.
-fn by_angle(x: f64, y: f64, density: impl Fn(f64) -> f64) -> f64 {
-    let slope2 = x * x + y * y;
-    let stretch = 1.0 + slope2;
-    density(slope2.sqrt().atan()) / (stretch * stretch)
+    const CLASSES: &'static [&'static [&'static Spec<Self>]] = &[ALL];
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_1_PI;
+
     use super::*;
-    use crate::{Mode, ParameterValue, spec};
+    use crate::{Mode, ParameterNode, ParameterValue, spec};
 
     fn built(name: &str, params: &[(&str, f64)], mode: Mode) -> Box<dyn SlopeDistribution> {
-        let class = spec::find_class(name).unwrap();
+        let class = crate::registry::find_class(name).unwrap();
         let node =
             params.iter().fold(ParameterNode::with_defaults(class, mode), |node, (name, x)| {
                 node.with(name, ParameterValue::Number(*x)).unwrap()
@@ -213,7 +128,7 @@ mod tests {
 
     #[test]
     fn widths_that_are_not_positive_are_refused() {
-        let class = spec::find_class("Gaussian_Slope_Distribution_Function").unwrap();
+        let class = crate::registry::find_class("Gaussian_Slope_Distribution_Function").unwrap();
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let node = ParameterNode::with_defaults(class, Mode::Sound)
                 .with("s", ParameterValue::Number(bad));

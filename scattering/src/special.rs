@@ -1,8 +1,9 @@
-//! Special functions and quadrature rules that several models need.
+//! Special functions, quadrature rules and matrices.
 
 pub mod bessel;
 pub(crate) mod erf;
 pub mod gauss;
 pub mod harmonics;
 pub mod laguerre;
+pub mod matrix;
 pub mod riccati;

@@ -5,9 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use num_complex::Complex64;
 use scattering::{
     Basis, Brdf, Geometry, Mode, Model, Mueller, ParameterKind, ParameterNode, ParameterValue,
-    Spec, models,
-    optics::RefractiveIndex,
-    spec::{Laws, find_class},
+    Spec, models, optics::RefractiveIndex, registry::find_class, spec::Laws,
 };
 
 /// Reciprocity and symmetry of the closed forms hold to rounding, those of sums over Bessel
@@ -63,7 +61,7 @@ fn variants(defaults: &ParameterNode) -> Vec<(String, Model)> {
         let has = defaults
             .class
             .parameter(parameter)
-            .is_some_and(|(_, p)| matches!(p.kind, ParameterKind::Member(..)));
+            .is_some_and(|(_, p)| matches!(p.kind, ParameterKind::Member { .. }));
         if !has {
             continue;
         }

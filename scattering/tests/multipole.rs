@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use scattering::{
-    Basis, Geometry, Mode, ParameterNode, ParameterValue, models, optics::RefractiveIndex, spec,
+    Basis, Geometry, Mode, ParameterNode, ParameterValue, models, optics::RefractiveIndex,
 };
 
 const PROGRAMS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/conformance/programs");
@@ -39,7 +39,7 @@ fn index(n: f64, k: f64) -> ParameterValue {
 }
 
 fn node(class: &str, mode: Mode, values: &[(&str, ParameterValue)]) -> ParameterNode {
-    let class = spec::find_class(class).unwrap();
+    let class = scattering::registry::find_class(class).unwrap();
     values.iter().fold(ParameterNode::with_defaults(class, mode), |node, (name, value)| {
         node.with(name, value.clone()).unwrap()
     })
@@ -241,7 +241,8 @@ fn harmonics_are_paired_wrongly_in_compat_with_few_orders_only() {
     let m = |mode, mmax| {
         let node = ellipsoid_on_silicon(mode, mmax);
         let m = models::build(&node).unwrap().mueller(&at, Basis::Psps);
-        let met = node.met.lock().unwrap().contains(&scattering::Defect::AxisymmetricIndex.into());
+        let met =
+            node.notices.lock().unwrap().contains(&scattering::Defect::AxisymmetricIndex.into());
         (m, met)
     };
     let difference = |mmax| {

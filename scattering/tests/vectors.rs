@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use reference::{FILE, TOLERANCE, list, mueller, node, number, relative_difference};
 use scattering::{
     Basis, Geometry, Mode, Model, Mueller, ParameterNode, ParameterValue, Surface, SurfaceError,
-    models, optics::RefractiveIndex, spec::find_class,
+    models, optics::RefractiveIndex, registry::find_class,
 };
 use serde_json::Value as Json;
 

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use scattering::{Class, Family};
+use scattering::{Class, registry};
 
-use super::names::{kind, title};
+use super::kinds::kind;
 
 const INTRODUCTION: &str = "\
 <!-- Made by `mist models --markdown`; a test compares. Edit the SPEC of a class instead. -->
@@ -19,9 +19,9 @@ that a parameter names. Lengths are µm, angles rad.
 /// The whole page.
 pub(super) fn manual() -> String {
     let mut text = INTRODUCTION.to_owned();
-    for family in Family::ALL.iter().filter(|family| !family.classes().is_empty()) {
+    for family in registry::FAMILIES.iter().filter(|family| !family.classes().is_empty()) {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "\n## {}", title(*family));
+        let _ = writeln!(text, "\n## {}", family.title);
         for class in family.classes() {
             text.push_str(&section(class));
         }
@@ -49,7 +49,7 @@ fn section(class: &Class) -> String {
                 "| `{}` | {} | `{}` | {} | {} |",
                 p.name,
                 kind(p.kind),
-                p.default,
+                p.kind.default_text(),
                 p.unit,
                 p.doc.replace('|', "\\|")
             );

@@ -2,20 +2,20 @@
 
 use std::fmt::Write as _;
 
-use scattering::{Class, Family};
+use scattering::{Class, registry};
 
-use super::names::{kind, title};
+use super::kinds::kind;
 
 /// All classes, by family, with one line each.
 pub(super) fn list() -> String {
     let mut text = String::new();
-    for family in Family::ALL {
+    for family in registry::FAMILIES {
         let classes = family.classes();
         if classes.is_empty() {
             continue;
         }
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{} ({})", title(*family), family.base());
+        let _ = writeln!(text, "{} ({})", family.title, family.base);
         let width = classes.iter().map(|class| class.name.len()).max().unwrap_or(0);
         for class in classes {
             let _ = writeln!(text, "  {:<width$}  {}", class.name, class.summary);
@@ -35,7 +35,7 @@ pub(super) fn class(class: &Class) -> String {
         .parameters()
         .map(|p| {
             let unit = if p.unit.is_empty() { String::new() } else { format!(" [{}]", p.unit) };
-            [p.name.into(), kind(p.kind), p.default.into(), format!("{}{unit}", p.doc)]
+            [p.name.into(), kind(p.kind), p.kind.default_text(), format!("{}{unit}", p.doc)]
         })
         .collect();
     if rows.is_empty() {

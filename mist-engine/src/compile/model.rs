@@ -1,7 +1,7 @@
 //! MODEL: the class of the model.
 
 use mist_format::{program::SourceText, suggestion::did_you_mean};
-use scattering::{Class, spec};
+use scattering::{Class, registry};
 
 use super::Binder;
 use crate::fault::fault;
@@ -13,10 +13,10 @@ pub(super) fn class(model: &SourceText, binder: &mut Binder<'_>) -> Option<&'sta
         return Some(&found.class);
     }
     let all: Vec<&str> = scattering::models::all().map(|spec| spec.class.name).collect();
-    let other = spec::find_class(name).map(|class| format!("{name} is a {}", class.parent));
+    let other = registry::find_class(name).map(|class| format!("{name} is a {}", class.parent));
     let message = match other {
         Some(what) => format!("{what}, not a BRDF model"),
-        None if name == "BRDF_Model" || spec::ABSTRACT.iter().any(|(this, _)| *this == name) => {
+        None if name == "BRDF_Model" || registry::is_abstract(name) => {
             format!("{name} is a family of models, not one of them")
         }
         None => format!("there is no BRDF model called {name:?}"),

@@ -6,7 +6,7 @@ use mist_format::{
     expr::{self, Expr, Stack},
     table::TableError,
 };
-use scattering::spec;
+use scattering::{optics::FormulaFn, spec::ParameterKind};
 
 use super::SetError;
 use crate::DataFiles;
@@ -15,7 +15,7 @@ use crate::DataFiles;
 #[derive(Clone)]
 pub(crate) struct FormulaState {
     text: Arc<str>,
-    function: spec::FormulaFn,
+    function: FormulaFn,
 }
 
 impl PartialEq for FormulaState {
@@ -34,9 +34,11 @@ impl fmt::Debug for FormulaState {
 
 impl FormulaState {
     /// A number that does not depend on x.
-    pub(crate) fn constant(text: &str) -> Self {
-        let value = mist_format::number::whole_number(text).unwrap_or(f64::NAN);
-        Self { text: text.into(), function: Arc::new(move |_| value) }
+    pub(crate) fn constant(value: f64) -> Self {
+        Self {
+            text: ParameterKind::Formula(value).default_text().into(),
+            function: Arc::new(move |_| value),
+        }
     }
 
     /// The function that `text` says.
@@ -50,7 +52,7 @@ impl FormulaState {
         &self.text
     }
 
-    pub(crate) fn function(&self) -> spec::FormulaFn {
+    pub(crate) fn function(&self) -> FormulaFn {
         self.function.clone()
     }
 }
@@ -64,7 +66,7 @@ pub(crate) fn columns(
     variable: &str,
     element: usize,
     library: &DataFiles,
-) -> Result<spec::FormulaFn, SetError> {
+) -> Result<FormulaFn, SetError> {
     let text = expr.text();
     if let Some(name) = expr.names().iter().find(|name| *name != variable) {
         let problem = format!("{text:?} reads {name}, which is not its variable {variable}");

@@ -5,8 +5,11 @@ use std::{
     sync::Arc,
 };
 
-use mist_format::{Dialect, number::whole_number, optics::IndexText};
-use scattering::optics::{RealFunction, RefractiveIndex};
+use mist_format::{Dialect, optics::IndexText};
+use scattering::{
+    optics::{RealFunction, RefractiveIndex},
+    spec::ParameterKind,
+};
 
 use super::{ParameterContext, ParameterInput, SetError, source::TableSource, table::TableState};
 use crate::quirk::Quirk;
@@ -57,13 +60,11 @@ impl Eq for IndexState {}
 
 impl IndexState {
     /// The default that the registry declares: a number or `(n,k)`.
-    pub(crate) fn constant(text: &str) -> Self {
-        let inner = text.trim_start_matches('(').trim_end_matches(')');
-        let values: Vec<f64> =
-            inner.split(',').map(|part| whole_number(part).unwrap_or(f64::NAN)).collect();
+    pub(crate) fn constant(n: f64, k: f64) -> Self {
+        let text = ParameterKind::Index { n, k }.default_text();
         Self {
-            n: TableState::of_values(text, values.clone(), 2),
-            k: TableState::of_values(text, values, 3),
+            n: TableState::of_values(&text, vec![n, k], 2),
+            k: TableState::of_values(&text, vec![n, k], 3),
             held: None,
             misread: false,
         }

@@ -131,6 +131,6 @@ impl ObjectState {
 
     pub(crate) fn node(&self, mode: Mode, met: &SharedNotices) -> ParameterNode {
         let values = self.slots.iter().map(|slot| slot.value(mode, met)).collect();
-        ParameterNode { class: self.class, values, mode, met: met.clone() }
+        ParameterNode { class: self.class, values, mode, notices: met.clone() }
     }
 }

@@ -65,7 +65,7 @@ impl ParameterPath {
 fn members(params: impl Iterator<Item = &'static Parameter>) -> Vec<&'static Class> {
     let mut families = Vec::new();
     for param in params {
-        if let ParameterKind::Member(family, _) = param.kind
+        if let ParameterKind::Member { family, .. } = param.kind
             && !families.contains(&family)
         {
             families.push(family);
@@ -128,7 +128,7 @@ mod tests {
         for name in
             ["Gaussian_Slope_Distribution_Function", "Exponential_Slope_Distribution_Function"]
         {
-            let class = scattering::spec::find_class(name).unwrap();
+            let class = scattering::registry::find_class(name).unwrap();
             let (position, param) = rest.find_in(class).unwrap();
             assert_eq!(class.parameter("s").map(|(at, _)| at), Some(position));
             assert_eq!(param.name, "s");

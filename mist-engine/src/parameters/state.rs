@@ -11,8 +11,7 @@ use mist_format::{
     suggestion::did_you_mean,
 };
 use scattering::{
-    Defect, Family, Mode, Parameter, ParameterKind, ParameterValue,
-    spec::{self, SharedNotices},
+    Defect, Family, Mode, Parameter, ParameterKind, ParameterValue, registry, spec::SharedNotices,
 };
 
 use super::{
@@ -81,20 +80,19 @@ impl Eq for ParameterState {}
 impl ParameterState {
     /// The default that the registry declares.
     pub(crate) fn default_of(param: &Parameter) -> Self {
-        let default = param.default;
         match param.kind {
-            ParameterKind::Number => Self::Number(whole_number(default).unwrap_or(f64::NAN)),
-            ParameterKind::Integer => Self::Integer(
-                integer_prefix(default).value.and_then(|v| v.try_into().ok()).unwrap_or(0),
-            ),
-            ParameterKind::Text => Self::Text(default.into()),
-            ParameterKind::File => Self::File { name: default.into(), text: "".into() },
-            ParameterKind::Formula => Self::Formula(Arc::new(FormulaState::constant(default))),
-            ParameterKind::Index => Self::Index(Persistent::new(IndexState::constant(default))),
-            ParameterKind::Table => Self::Table(Persistent::new(TableState::constant(default))),
+            ParameterKind::Number(x) => Self::Number(x),
+            ParameterKind::Integer(i) => Self::Integer(i),
+            ParameterKind::Text => Self::Text("".into()),
+            ParameterKind::File => Self::File { name: "".into(), text: "".into() },
+            ParameterKind::Formula(x) => Self::Formula(Arc::new(FormulaState::constant(x))),
+            ParameterKind::Index { n, k } => {
+                Self::Index(Persistent::new(IndexState::constant(n, k)))
+            }
+            ParameterKind::Table(x) => Self::Table(Persistent::new(TableState::constant(x))),
             ParameterKind::Films => Self::Films(Persistent::default()),
-            ParameterKind::Member(..) => {
-                let class = spec::find_class(default).expect("a test builds every default");
+            ParameterKind::Member { family, default, .. } => {
+                let class = family.class(default).expect("a test builds every default");
                 Self::Member(Persistent::new(ObjectState::new(class)))
             }
         }
@@ -132,19 +130,19 @@ impl ParameterState {
         context: &ParameterContext<'_>,
     ) -> Option<Self> {
         match (param.kind, values) {
-            (ParameterKind::Number, [x]) if context.mode == Mode::Compat => {
+            (ParameterKind::Number(_), [x]) if context.mode == Mode::Compat => {
                 reread(*x).map(Self::Number)
             }
             _ if !context.keeps_bits(values) => None,
-            (ParameterKind::Number, [x]) => Some(Self::Number(*x)),
-            (ParameterKind::Integer, [x]) => {
+            (ParameterKind::Number(_), [x]) => Some(Self::Number(*x)),
+            (ParameterKind::Integer(_), [x]) => {
                 let whole = *x as i32;
                 (f64::from(whole) == *x).then_some(Self::Integer(whole))
             }
-            (ParameterKind::Index, [n]) => {
+            (ParameterKind::Index { .. }, [n]) => {
                 Some(Self::Index(Persistent::new(IndexState::of_numbers(*n, 0.0))))
             }
-            (ParameterKind::Index, [n, k]) => {
+            (ParameterKind::Index { .. }, [n, k]) => {
                 Some(Self::Index(Persistent::new(IndexState::of_numbers(*n, *k))))
             }
             _ => None,
@@ -162,21 +160,23 @@ impl ParameterState {
             return Ok(());
         }
         *self = match param.kind {
-            ParameterKind::Number => Self::Number(number(text, context.mode)?),
-            ParameterKind::Integer => Self::Integer(integer(text, context.mode)?),
+            ParameterKind::Number(_) => Self::Number(number(text, context.mode)?),
+            ParameterKind::Integer(_) => Self::Integer(integer(text, context.mode)?),
             ParameterKind::Text => Self::Text(text.into()),
             ParameterKind::File => {
                 let file =
                     context.library.text(text).map_err(|e| SetError::value(e.to_string()))?;
                 Self::File { name: text.into(), text: file }
             }
-            ParameterKind::Formula => {
+            ParameterKind::Formula(_) => {
                 Self::Formula(Arc::new(FormulaState::read(text, context.library)?))
             }
-            ParameterKind::Index => Self::Index(Persistent::new(IndexState::read(text, context)?)),
-            ParameterKind::Table => unreachable!("a table is replaced in place"),
+            ParameterKind::Index { .. } => {
+                Self::Index(Persistent::new(IndexState::read(text, context)?))
+            }
+            ParameterKind::Table(_) => unreachable!("a table is replaced in place"),
             ParameterKind::Films => Self::Films(Persistent::new(FilmsState::read(text, context)?)),
-            ParameterKind::Member(family, base) => {
+            ParameterKind::Member { family, base, .. } => {
                 let class = member(text, family, base)?;
                 Self::Member(Persistent::new(ObjectState::new(class)))
             }
@@ -278,18 +278,18 @@ fn integer(text: &str, mode: Mode) -> Result<i32, SetError> {
 }
 
 /// The class called `name`, at or below `base`.
-fn member(name: &str, family: Family, base: &str) -> Result<&'static scattering::Class, SetError> {
-    let found = family.classes().into_iter().find(|class| class.name == name);
-    let found = found.filter(|class| spec::is_below(class.name, base));
+fn member(name: &str, family: &Family, base: &str) -> Result<&'static scattering::Class, SetError> {
+    let found = family.class(name);
+    let found = found.filter(|class| family.is_below(class.name, base));
     found.ok_or_else(|| {
-        let abstract_class = name == base || spec::ABSTRACT.iter().any(|(this, _)| *this == name);
+        let abstract_class = name == base || registry::is_abstract(name);
         let problem = if abstract_class {
             format!("{name} is a family of classes, not one of them")
         } else {
             format!("there is no {base} called {name:?}")
         };
         let classes = family.classes().into_iter().map(|class| class.name);
-        let choices: Vec<&str> = classes.filter(|choice| spec::is_below(choice, base)).collect();
+        let choices: Vec<&str> = classes.filter(|choice| family.is_below(choice, base)).collect();
         let all = format!("choose one of {}", choices.join(", "));
         SetError::value(problem).help(all).help_if(did_you_mean(name, choices))
     })

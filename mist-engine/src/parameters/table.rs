@@ -6,8 +6,11 @@ use std::{
     sync::Arc,
 };
 
-use mist_format::number::{number_prefix, whole_number};
-use scattering::optics::{AbscissaScale, RealFunction, TableInterpolation};
+use mist_format::number::number_prefix;
+use scattering::{
+    optics::{AbscissaScale, RealFunction, TableInterpolation},
+    spec::ParameterKind,
+};
 
 use super::{
     ParameterContext, ParameterInput, SetError,
@@ -51,9 +54,8 @@ impl Eq for TableState {}
 
 impl TableState {
     /// The default that the registry declares: a number.
-    pub(crate) fn constant(text: &str) -> Self {
-        let value = whole_number(text).unwrap_or(f64::NAN);
-        Self::of_values(text, vec![value], 2)
+    pub(crate) fn constant(value: f64) -> Self {
+        Self::of_values(&ParameterKind::Table(value).default_text(), vec![value], 2)
     }
 
     /// A constant with several columns.

@@ -8,7 +8,7 @@ use mist_engine::{
     sampling::adaptive::{Accuracy, AdaptiveError, integrate},
 };
 use rayon::prelude::*;
-use scattering::{Basis, Incidence, Mode, Model, ParameterNode, ParameterValue, models, spec};
+use scattering::{Basis, Incidence, Mode, Model, ParameterNode, ParameterValue, models};
 
 use crate::plane;
 
@@ -23,7 +23,7 @@ struct Case {
 }
 
 fn node(name: &str) -> ParameterNode {
-    ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+    ParameterNode::with_defaults(scattering::registry::find_class(name).unwrap(), Mode::Sound)
 }
 
 /// The facets of `class` with a density of slopes `sdf` of rms `slope`.

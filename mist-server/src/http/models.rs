@@ -6,7 +6,6 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use mist_runner::registry;
-use scattering::spec;
 use serde_json::Value;
 
 use super::{error::ApiError, extract::PathParameters, problem::Problems};
@@ -36,7 +35,7 @@ pub(super) async fn list() -> Json<Value> {
 pub(super) async fn get(
     PathParameters(name): PathParameters<String>,
 ) -> Result<Response, ApiError> {
-    let class = spec::find_class(&name);
+    let class = scattering::registry::find_class(&name);
     let class = class.ok_or_else(|| ApiError::NotFound(registry::unknown(&name)))?;
     let kind = [(header::CONTENT_TYPE, "application/schema+json")];
     Ok((kind, Json(registry::schema(class))).into_response())

@@ -18,12 +18,12 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::table("rtop", "0.1", "um", "Radius at the top against azimuth in degrees"),
-    Parameter::table("rbottom", "0.1", "um", "Radius at the bottom against azimuth in degrees"),
-    Parameter::number("thickness", "0.1", "um", "Height"),
-    Parameter::integer("nlevels", "1", "Number of slices"),
-    Parameter::index("inside", "(1,0)", "Index inside"),
-    Parameter::index("outside", "(1.5,0)", "Index outside"),
+    Parameter::table("rtop", 0.1, "um", "Radius at the top against azimuth in degrees"),
+    Parameter::table("rbottom", 0.1, "um", "Radius at the bottom against azimuth in degrees"),
+    Parameter::number("thickness", 0.1, "um", "Height"),
+    Parameter::integer("nlevels", 1, "Number of slices"),
+    Parameter::index("inside", (1.0, 0.0), "Index inside"),
+    Parameter::index("outside", (1.5, 0.0), "Index outside"),
 ];
 
 /// Name, parameters and constructor of a [`CylinderGrating`].

@@ -29,7 +29,7 @@ use crate::{
     spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
-const OWN: &[Parameter] = &[Parameter::integer("nlayers", "10", "Number of slices, about")];
+const OWN: &[Parameter] = &[Parameter::integer("nlayers", 10, "Number of slices, about")];
 
 /// Name, parameters and constructor of a [`GenericCrossGrating`].
 pub const SPEC: Spec<dyn CrossGrating> = Spec {

@@ -1,8 +1,7 @@
 //! Pixels of a unit cell, and the parameters of the gratings drawn on them.
 
-use super::Lattice;
+use super::lattice::{Lattice, lean};
 use crate::{
-    cross_grating::lean,
     grating::{GratingMaterial, positive},
     rcw::toeplitz::FourierSeries,
     spec::{Parameter, ParameterError, ParameterNode},
@@ -11,11 +10,11 @@ use num_complex::Complex64;
 
 /// The unit cell and its pixels: the second group of every gridded crossed grating.
 pub(super) const CELL: &[Parameter] = &[
-    Parameter::number("zeta", "0", "deg", "Angle from y to axis 2"),
-    Parameter::number("d1", "0.5", "um", "Period along axis 1"),
-    Parameter::number("d2", "0.5", "um", "Period along axis 2"),
-    Parameter::integer("grid1", "1024", "Pixels along axis 1"),
-    Parameter::integer("grid2", "1024", "Pixels along axis 2"),
+    Parameter::number("zeta", 0.0, "deg", "Angle from y to axis 2"),
+    Parameter::number("d1", 0.5, "um", "Period along axis 1"),
+    Parameter::number("d2", 0.5, "um", "Period along axis 2"),
+    Parameter::integer("grid1", 1024, "Pixels along axis 1"),
+    Parameter::integer("grid2", 1024, "Pixels along axis 2"),
 ];
 
 /// Most pixels along an axis.

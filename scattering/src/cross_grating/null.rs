@@ -10,9 +10,9 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("d1", "0.5", "um", "Period along axis 1"),
-    Parameter::number("d2", "0.5", "um", "Period along axis 2"),
-    Parameter::number("zeta", "0", "deg", "Angle from y to axis 2"),
+    Parameter::number("d1", 0.5, "um", "Period along axis 1"),
+    Parameter::number("d2", 0.5, "um", "Period along axis 2"),
+    Parameter::number("zeta", 0.0, "deg", "Angle from y to axis 2"),
 ];
 
 /// Name, parameters and constructor of a [`NullGrating`].

@@ -8,20 +8,14 @@ use super::{
     CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, Lattice, MEDIA, lean,
 };
 use crate::{
-    grating::{Grating, positive},
-    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
+    grating::{self, Grating, positive},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("d2", "0.5", "um", "Period along axis 2"),
-    Parameter::number("zeta", "0", "deg", "Angle from y to axis 2"),
-    Parameter::member(
-        "grating",
-        Family::Grating,
-        "Grating",
-        "Single_Line_Grating",
-        "The line grating",
-    ),
+    Parameter::number("d2", 0.5, "um", "Period along axis 2"),
+    Parameter::number("zeta", 0.0, "deg", "Angle from y to axis 2"),
+    Parameter::member("grating", &grating::FAMILY, "Single_Line_Grating", "The line grating"),
 ];
 
 /// Name, parameters and constructor of a [`LineCrossGrating`].

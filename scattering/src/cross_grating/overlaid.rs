@@ -4,20 +4,21 @@
 
 use super::{CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, MEDIA, same};
 use crate::{
+    cross_grating::FAMILY,
     grating::{GratingMaterial, LinePattern, finite, not_negative},
-    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 const fn part(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter::member(name, Family::CrossGrating, "CrossGrating", "OneD_CrossGrating", doc)
+    Parameter::member(name, &FAMILY, "OneD_CrossGrating", doc)
 }
 
 const OWN: &[Parameter] = &[
     part("top", "The upper grating"),
     part("bottom", "The lower grating"),
-    Parameter::number("overlay1", "0", "um", "Shift of the upper grating along axis 1"),
-    Parameter::number("overlay2", "0", "um", "Shift of the upper grating along axis 2"),
-    Parameter::number("separation", "0", "um", "Distance between the two"),
+    Parameter::number("overlay1", 0.0, "um", "Shift of the upper grating along axis 1"),
+    Parameter::number("overlay2", 0.0, "um", "Shift of the upper grating along axis 2"),
+    Parameter::number("separation", 0.0, "um", "Distance between the two"),
 ];
 
 /// Name, parameters and constructor of an [`OverlaidCrossGrating`].

@@ -9,19 +9,19 @@ use super::{
     CrossGrating, CrossGratingMedia, CrossPattern, CrossProfile, CrossSlice, Lattice, MEDIA, same,
 };
 use crate::{
-    grating::{Grating, GratingMaterial, LinePattern, not_negative},
-    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
+    grating::{self, Grating, GratingMaterial, LinePattern, not_negative},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 const fn part(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter::member(name, Family::Grating, "Grating", "Single_Line_Grating", doc)
+    Parameter::member(name, &grating::FAMILY, "Single_Line_Grating", doc)
 }
 
 const OWN: &[Parameter] = &[
     part("top", "The upper grating"),
     part("bottom", "The lower grating"),
-    Parameter::number("angle", "90", "deg", "Angle between the lines"),
-    Parameter::number("separation", "0", "um", "Distance between the two"),
+    Parameter::number("angle", 90.0, "deg", "Angle between the lines"),
+    Parameter::number("separation", 0.0, "um", "Distance between the two"),
 ];
 
 /// Name, parameters and constructor of an [`Overlaid1D`].

@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 use faer::Scale;
 use num_complex::Complex64;
 
-use super::{CrossSlice, PixelGrid};
+use super::grid::PixelGrid;
 use crate::{
     grating::{GratingMaterial, LinePattern},
     rcw::{
@@ -27,6 +27,24 @@ use crate::{
         toeplitz::{FourierSeries, inverse},
     },
 };
+
+/// A slice in which the material does not depend on z.
+#[derive(Clone, Debug)]
+pub struct CrossSlice {
+    /// Thickness, µm.
+    pub thickness: f64,
+    /// The material along both axes.
+    pub pattern: CrossPattern,
+    /// Shift along both axes, as fractions of the periods.
+    pub shift: (f64, f64),
+}
+
+impl CrossSlice {
+    /// A slice that is not shifted.
+    pub fn new(thickness: f64, pattern: CrossPattern) -> Self {
+        Self { thickness, pattern, shift: (0.0, 0.0) }
+    }
+}
 
 /// The material over one cell.
 #[derive(Clone, Debug)]

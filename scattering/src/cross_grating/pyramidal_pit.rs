@@ -15,9 +15,9 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("side", "0.05", "um", "Side of the opening"),
-    Parameter::number("depth", "0.05", "um", "Depth"),
-    Parameter::integer("nlevels", "10", "Number of slices"),
+    Parameter::number("side", 0.05, "um", "Side of the opening"),
+    Parameter::number("depth", 0.05, "um", "Depth"),
+    Parameter::integer("nlevels", 10, "Number of slices"),
 ];
 
 /// Name, parameters and constructor of a [`PyramidalPit`].

@@ -18,12 +18,12 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("length1", "0.1", "um", "Side along x"),
-    Parameter::number("length2", "0.1", "um", "Side along the other direction"),
-    Parameter::number("zetaa", "0", "deg", "Angle from y to the second side"),
-    Parameter::number("thickness", "0.1", "um", "Height"),
-    Parameter::index("inside", "(1,0)", "Index inside"),
-    Parameter::index("outside", "(1.5,0)", "Index outside"),
+    Parameter::number("length1", 0.1, "um", "Side along x"),
+    Parameter::number("length2", 0.1, "um", "Side along the other direction"),
+    Parameter::number("zetaa", 0.0, "deg", "Angle from y to the second side"),
+    Parameter::number("thickness", 0.1, "um", "Height"),
+    Parameter::index("inside", (1.0, 0.0), "Index inside"),
+    Parameter::index("outside", (1.5, 0.0), "Index outside"),
 ];
 
 /// Name, parameters and constructor of a [`RectangleGrating`].

@@ -17,12 +17,12 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("diameter", "0.05", "um", "Diameter of the spheres"),
-    Parameter::number("above", "0.05", "um", "Thickness of the layer above the spheres"),
-    Parameter::number("below", "0.05", "um", "Thickness of the layer below the spheres"),
-    Parameter::integer("nlevels", "7", "Number of slices of the spheres"),
-    Parameter::index("sphere", "(1,0)", "Index of the spheres"),
-    Parameter::index("surrounding", "(1.5,0)", "Index around them"),
+    Parameter::number("diameter", 0.05, "um", "Diameter of the spheres"),
+    Parameter::number("above", 0.05, "um", "Thickness of the layer above the spheres"),
+    Parameter::number("below", 0.05, "um", "Thickness of the layer below the spheres"),
+    Parameter::integer("nlevels", 7, "Number of slices of the spheres"),
+    Parameter::index("sphere", (1.0, 0.0), "Index of the spheres"),
+    Parameter::index("surrounding", (1.5, 0.0), "Index around them"),
 ];
 
 /// Name, parameters and constructor of a [`SphereGrating`].

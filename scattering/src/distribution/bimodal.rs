@@ -1,7 +1,10 @@
 //! Mixture of two densities: p = f p_A + (1 − f) p_B.
 
 use super::Distribution;
-use crate::spec::{Class, Family, Laws, Parameter, ParameterError, Spec};
+use crate::{
+    distribution::FAMILY,
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
+};
 
 /// Name, parameters and constructor of a [`Bimodal`] distribution.
 pub const SPEC: Spec<dyn Distribution> = Spec {
@@ -14,7 +17,7 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         params: &[&[
             part("distributionA", "First distribution"),
             part("distributionB", "Second distribution"),
-            Parameter::number("fractionA", "0.5", "1", "Fraction f of the first, 0 to 1"),
+            Parameter::number("fractionA", 0.5, "1", "Fraction f of the first, 0 to 1"),
         ]],
         laws: Laws::NONE,
     },
@@ -32,7 +35,7 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
 };
 
 const fn part(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter::member(name, Family::Distribution, "Distribution", "Log_Normal_Distribution", doc)
+    Parameter::member(name, &FAMILY, "Log_Normal_Distribution", doc)
 }
 
 /// A mixture of two distributions.

@@ -20,8 +20,8 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         equation: "p = exp(-(ln(d/median))^2/(2 sigma^2))/(d sigma sqrt(2 pi))",
         source: "aitchison-brown-1957",
         params: &[&[
-            Parameter::number("sigma", "1", "1", "Standard deviation of ln d"),
-            Parameter::number("median", "10", "um", "Median diameter"),
+            Parameter::number("sigma", 1.0, "1", "Standard deviation of ln d"),
+            Parameter::number("median", 10.0, "um", "Median diameter"),
         ]],
         laws: Laws::NONE,
     },

@@ -22,9 +22,9 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         equation: "p = gamma Lambda^((1+mu)/gamma)/(2 Gamma((1+mu)/gamma)) r^mu exp(-Lambda r^gamma), r = d/2",
         source: "deirmendjian-1969",
         params: &[&[
-            Parameter::number("mu", "8", "1", "Exponent of the radius, above -1"),
-            Parameter::number("Lambda", "0.0417", "um^-gamma", "Strength of the exponential fall"),
-            Parameter::number("gamma", "3", "1", "Exponent of the radius in the exponential"),
+            Parameter::number("mu", 8.0, "1", "Exponent of the radius, above -1"),
+            Parameter::number("Lambda", 0.0417, "um^-gamma", "Strength of the exponential fall"),
+            Parameter::number("gamma", 3.0, "1", "Exponent of the radius in the exponential"),
         ]],
         laws: Laws::NONE,
     },

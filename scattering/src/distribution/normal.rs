@@ -20,8 +20,8 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         equation: "p = exp(-(d-mean)^2/(2 sigma^2))/(sigma sqrt(2 pi))",
         source: "aitchison-brown-1957",
         params: &[&[
-            Parameter::number("mean", "10", "um", "Mean diameter"),
-            Parameter::number("sigma", "5", "um", "Standard deviation of the diameter"),
+            Parameter::number("mean", 10.0, "um", "Mean diameter"),
+            Parameter::number("sigma", 5.0, "um", "Standard deviation of the diameter"),
         ]],
         laws: Laws::NONE,
     },

@@ -18,8 +18,8 @@ pub const SPEC: Spec<dyn Distribution> = Spec {
         equation: "p = (e/s)(d/s)^(e-1) exp(-(d/s)^e)",
         source: "weibull-1951",
         params: &[&[
-            Parameter::number("scale", "10", "um", "Diameter s that a fraction 1-1/e stays below"),
-            Parameter::number("exponent", "4", "1", "Exponent e"),
+            Parameter::number("scale", 10.0, "um", "Diameter s that a fraction 1-1/e stays below"),
+            Parameter::number("exponent", 4.0, "1", "Exponent e"),
         ]],
         laws: Laws::NONE,
     },

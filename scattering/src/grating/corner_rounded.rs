@@ -24,13 +24,13 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::index("material", "(4.05,0.05)", "Index of the line"),
-    Parameter::number("height", "0.1", "um", "Height of the line"),
-    Parameter::number("width", "0.1", "um", "Width of the line at its foot, without the arcs"),
-    Parameter::number("sidewall", "88", "deg", "Angle of the sidewall, up to 90"),
-    Parameter::number("radiusb", "0.01", "um", "Radius of the arcs at the foot"),
-    Parameter::number("radiust", "0.001", "um", "Radius of the arcs at the top"),
-    Parameter::integer("nlevels", "10", "Number of slices"),
+    Parameter::index("material", (4.05, 0.05), "Index of the line"),
+    Parameter::number("height", 0.1, "um", "Height of the line"),
+    Parameter::number("width", 0.1, "um", "Width of the line at its foot, without the arcs"),
+    Parameter::number("sidewall", 88.0, "deg", "Angle of the sidewall, up to 90"),
+    Parameter::number("radiusb", 0.01, "um", "Radius of the arcs at the foot"),
+    Parameter::number("radiust", 0.001, "um", "Radius of the arcs at the top"),
+    Parameter::integer("nlevels", 10, "Number of slices"),
 ];
 
 /// Name, parameters and constructor of a [`CornerRounded`].

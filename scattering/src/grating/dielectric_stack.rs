@@ -9,12 +9,12 @@ use num_complex::Complex64;
 
 use super::{COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice};
 use crate::{
-    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
-    stack::Stack,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
+    stack::{self, Stack},
 };
 
 const fn stack(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter::member(name, Family::Stack, "StackModel", "No_StackModel", doc)
+    Parameter::member(name, &stack::FAMILY, "No_StackModel", doc)
 }
 
 const NAMES: [&str; 6] =

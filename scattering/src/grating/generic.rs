@@ -22,23 +22,16 @@ use description::{DescriptionContext, GratingDescription};
 
 /// The description file of a drawn grating.
 pub(crate) const FILE: &[Parameter] = &[
-    Parameter {
-        name: "filename",
-        kind: ParameterKind::File,
-        default: "",
-        unit: "",
-        doc: "File with the description",
-    },
+    Parameter::file("filename", "File with the description"),
     Parameter {
         name: "pstring",
         kind: ParameterKind::Text,
-        default: "",
         unit: "",
         doc: "Values of the file's PARAMETERS, (v1,v2,...)",
     },
 ];
 
-const OWN: &[Parameter] = &[Parameter::integer("nlayers", "20", "Number of slices, about")];
+const OWN: &[Parameter] = &[Parameter::integer("nlayers", 20, "Number of slices, about")];
 
 /// Name, parameters and constructor of a [`GenericGrating`].
 pub const SPEC: Spec<dyn Grating> = Spec {

@@ -9,17 +9,20 @@ use super::{
     COMMON, Grating, GratingCommon, GratingMaterial, LinePattern, LineProfile, LineSlice, finite,
     not_negative,
 };
-use crate::spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec};
+use crate::{
+    grating::FAMILY,
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
+};
 
 const fn part(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter::member(name, Family::Grating, "Grating", "Single_Line_Grating", doc)
+    Parameter::member(name, &FAMILY, "Single_Line_Grating", doc)
 }
 
 const OWN: &[Parameter] = &[
     part("top", "The upper grating"),
     part("bottom", "The lower grating"),
-    Parameter::number("overlay", "0", "um", "Shift of the upper grating along x"),
-    Parameter::number("separation", "0", "um", "Distance between the two"),
+    Parameter::number("overlay", 0.0, "um", "Shift of the upper grating along x"),
+    Parameter::number("separation", 0.0, "um", "Distance between the two"),
 ];
 
 /// Name, parameters and constructor of an [`OverlaidGrating`].

@@ -17,13 +17,13 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::index("material", "(4.05,0.05)", "Index of the line"),
-    Parameter::index("space", "(1,0)", "Index between the lines"),
-    Parameter::number("height", "0.2", "um", "Height of the line"),
-    Parameter::number("topwidth", "0.2", "um", "Width at the top"),
-    Parameter::number("bottomwidth", "0.2", "um", "Width at the bottom"),
-    Parameter::number("offset", "0", "um", "Shift of the bottom against the top"),
-    Parameter::integer("nlevels", "10", "Number of slices"),
+    Parameter::index("material", (4.05, 0.05), "Index of the line"),
+    Parameter::index("space", (1.0, 0.0), "Index between the lines"),
+    Parameter::number("height", 0.2, "um", "Height of the line"),
+    Parameter::number("topwidth", 0.2, "um", "Width at the top"),
+    Parameter::number("bottomwidth", 0.2, "um", "Width at the bottom"),
+    Parameter::number("offset", 0.0, "um", "Shift of the bottom against the top"),
+    Parameter::integer("nlevels", 10, "Number of slices"),
 ];
 
 /// Name, parameters and constructor of a [`SingleLine`].

@@ -20,11 +20,11 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::index("material", "(4.05,0.05)", "Index of the relief"),
-    Parameter::number("amplitude", "0.4", "um", "Height from trough to crest"),
-    Parameter::number("base", "0", "um", "Thickness of a full layer under the relief"),
-    Parameter::integer("option", "0", "0 equal steps of the width, 1 equal steps of the height"),
-    Parameter::integer("nlevels", "20", "Number of slices, the base among them"),
+    Parameter::index("material", (4.05, 0.05), "Index of the relief"),
+    Parameter::number("amplitude", 0.4, "um", "Height from trough to crest"),
+    Parameter::number("base", 0.0, "um", "Thickness of a full layer under the relief"),
+    Parameter::integer("option", 0, "0 equal steps of the width, 1 equal steps of the height"),
+    Parameter::integer("nlevels", 20, "Number of slices, the base among them"),
 ];
 
 /// Name, parameters and constructor of a [`SinusoidalRelief`].

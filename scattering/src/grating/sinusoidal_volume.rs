@@ -18,11 +18,11 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::index("minimum", "(1.52,0)", "Index at one end of the swing"),
-    Parameter::index("maximum", "(1.5,0)", "Index at the other end"),
-    Parameter::number("thick", "0.1", "um", "Thickness"),
-    Parameter::number("tilt", "0", "deg", "Tilt of the fringes from the normal"),
-    Parameter::integer("nlevels", "1", "Number of slices"),
+    Parameter::index("minimum", (1.52, 0.0), "Index at one end of the swing"),
+    Parameter::index("maximum", (1.5, 0.0), "Index at the other end"),
+    Parameter::number("thick", 0.1, "um", "Thickness"),
+    Parameter::number("tilt", 0.0, "deg", "Tilt of the fringes from the normal"),
+    Parameter::integer("nlevels", 1, "Number of slices"),
 ];
 
 /// Name, parameters and constructor of a [`SinusoidalVolume`].

@@ -16,10 +16,10 @@ use crate::{
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::index("material", "(4.05,0.05)", "Index of the ridge"),
-    Parameter::number("amplitude", "0.4", "um", "Height of the ridge"),
-    Parameter::number("aspect", "0.5", "1", "Position of the ridge in the period, 0 to 1"),
-    Parameter::integer("nlevels", "20", "Number of slices"),
+    Parameter::index("material", (4.05, 0.05), "Index of the ridge"),
+    Parameter::number("amplitude", 0.4, "um", "Height of the ridge"),
+    Parameter::number("aspect", 0.5, "1", "Position of the ridge in the period, 0 to 1"),
+    Parameter::integer("nlevels", 20, "Number of slices"),
 ];
 
 /// Name, parameters and constructor of a [`TriangularGrating`].

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
-use super::Real;
+use super::real::{Real, polynomial};
 
 /// The hyperbolic sine and cosine of x from 0 to 700, to 9·10⁻¹⁶ of them.
 #[inline(always)]
@@ -27,18 +27,6 @@ pub fn sin_cos_of_half_turn<R: Real>(x: R) -> [R; 2] {
     let is_one = -(quarters - 1.0).abs() + 0.5;
     let (s, c) = (is_one.select(cos, sin), is_one.select(sin, cos));
     [(-quarters + 1.5).select(s, -s), (-quarters + 0.5).select(c, -c)]
-}
-
-/// Σ c_k x^{n−k} of the coefficients c_0 … c_n: odd and even powers side by side, so that half
-/// of the operations wait for each other.
-#[inline(always)]
-pub(crate) fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
-    let square = x * x;
-    let mut sums = [x.splat(0.0); 2];
-    for (at, coefficient) in coefficients.iter().rev().enumerate().rev() {
-        sums[at % 2] = sums[at % 2] * square + *coefficient;
-    }
-    sums[1] * x + sums[0]
 }
 
 /// The number nearest to π/2, and what is left of π/2.

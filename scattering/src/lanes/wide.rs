@@ -10,7 +10,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use pulp::x86::{V3, V4};
 use pulp::{Simd, WithSimd};
 
-use super::{Lanes, Real, WIDTH};
+use super::{
+    array::{Lanes, WIDTH},
+    real::Real,
+};
 
 /// Work on a batch of directions.
 ///

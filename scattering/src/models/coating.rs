@@ -4,11 +4,12 @@
 //! sends back is tabulated when a model is built, so that what it lets pass is the rest. Models
 //! below a coat are built immersed: for light that comes from inside the coat.
 
-use super::Brdf;
+use super::brdf::Brdf;
 use crate::spec::Spec;
 
 mod body;
 mod closing;
+mod coat;
 mod doubling;
 mod exchange;
 mod flakes;

@@ -1,6 +1,6 @@
 //! Gratings: every diffracted order is a cone of light.
 
-use super::Brdf;
+use super::brdf::Brdf;
 use crate::spec::Spec;
 
 pub mod cross;

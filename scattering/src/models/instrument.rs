@@ -1,6 +1,6 @@
 //! Signatures of instruments and tabulated standards.
 
-use super::Brdf;
+use super::brdf::Brdf;
 use crate::spec::Spec;
 
 mod disk;

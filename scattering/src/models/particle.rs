@@ -1,11 +1,12 @@
 //! Particles on, in and below a surface.
 
-use super::Brdf;
-use crate::spec::{Parameter, Spec};
+use super::brdf::Brdf;
+use crate::spec::Spec;
 
 pub mod axisymmetric;
 pub mod bobbert_vlieger;
 pub mod double_interaction;
+mod local;
 pub mod one_layer;
 mod paths;
 pub mod polydisperse_sphere;
@@ -14,6 +15,8 @@ pub mod rayleigh_stack;
 mod small_sphere;
 pub mod subsurface_particle;
 mod supported;
+
+pub use local::LOCAL;
 
 /// The models of this group, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Brdf>] = &[
@@ -28,7 +31,3 @@ pub const ALL: &[&Spec<dyn Brdf>] = &[
     &axisymmetric::SPEC,
     &axisymmetric::SUBSURFACE,
 ];
-
-/// The parameter of models that multiply the cross-section of a particle by their number.
-pub const LOCAL: &[Parameter] =
-    &[Parameter::number("density", "1", "1/um^2", "Number of particles per area")];

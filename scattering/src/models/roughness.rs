@@ -10,12 +10,8 @@
 //! Mueller matrix is PSD times that of the amplitude. First order means heights well below the
 //! wavelength; neither the specular beam nor multiple scattering is included.
 
-use super::{Brdf, CommonParameters};
-use crate::{
-    Direction, Incidence, ParameterError, ParameterNode,
-    psd::Psd,
-    spec::{Family, Parameter, Spec},
-};
+use super::brdf::Brdf;
+use crate::spec::Spec;
 
 mod coherent;
 pub mod correlated_film;
@@ -24,8 +20,12 @@ pub mod growth_stack;
 mod interfaces;
 pub mod microroughness;
 pub mod one_interface;
+mod rough_surface;
 pub mod two_face;
 pub mod uncorrelated_stack;
+
+pub use rough_surface::ROUGHNESS;
+use rough_surface::{RoughSurface, STACK, thickness};
 
 /// The models of this group, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Brdf>] = &[
@@ -37,59 +37,3 @@ pub const ALL: &[&Spec<dyn Brdf>] = &[
     &correlated_film::SPEC,
     &two_face::SPEC,
 ];
-
-/// The parameter of every roughness model.
-pub const ROUGHNESS: &[Parameter] = &[Parameter::member(
-    "psd",
-    Family::Psd,
-    "PSD_Function",
-    "ABC_PSD_Function",
-    "Power spectral density of surface height",
-)];
-
-/// The films of a stack model.
-const STACK: &[Parameter] =
-    &[Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films")];
-
-/// Data of every roughness model: the common part, the spectrum, the frequencies.
-struct RoughSurface {
-    common: CommonParameters,
-    psd: Box<dyn Psd>,
-    /// m_i/λ and m_s/λ, 1/µm.
-    per_sine: (f64, f64),
-}
-
-impl RoughSurface {
-    fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
-        let common = CommonParameters::read(node)?;
-        let index = |inside: bool| if inside { common.substrate.re } else { 1.0 };
-        let per_sine = (
-            index(common.side.from_below()) / common.lambda,
-            index(common.side.to_below()) / common.lambda,
-        );
-        Ok(Self { common, psd: node.member::<dyn Psd>("psd")?, per_sine })
-    }
-
-    /// (f_x, f_y) in the frame of the sample, 1/µm.
-    fn frequency(&self, incidence: &Incidence, direction: &Direction) -> (f64, f64) {
-        let (incident, scattered) = self.per_sine;
-        let out = scattered * direction.sin;
-        incidence
-            .to_sample(out * direction.cos_phi - incident * incidence.sin, out * direction.sin_phi)
-    }
-
-    /// PSD at that frequency, µm⁴.
-    fn density(&self, incidence: &Incidence, direction: &Direction) -> f64 {
-        let (fx, fy) = self.frequency(incidence, direction);
-        self.psd.density(fx, fy)
-    }
-}
-
-/// The thickness `name` of a single film, µm.
-fn thickness(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
-    let value = node.number(name);
-    if value >= 0.0 && value.is_finite() {
-        return Ok(value);
-    }
-    Err(ParameterError::new(name, format!("{value} um is not the thickness of a film")))
-}

@@ -1,6 +1,6 @@
 //! Weighted sums of models, and models seen through a second face.
 
-use super::Brdf;
+use super::brdf::Brdf;
 use crate::spec::Spec;
 
 pub mod four_source;

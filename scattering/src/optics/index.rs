@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::RealFunction;
+use super::function::RealFunction;
 
 /// An index of refraction: two functions of the vacuum wavelength in µm, k ≥ 0 absorbing.
 #[derive(Clone, Debug)]
@@ -28,4 +28,13 @@ impl RefractiveIndex {
     pub fn without_absorption(&self) -> Self {
         Self { n: self.n.clone(), k: RealFunction::constant(0.0) }
     }
+}
+
+/// A homogeneous film.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// Index of refraction.
+    pub index: RefractiveIndex,
+    /// Thickness, µm.
+    pub thickness: f64,
 }

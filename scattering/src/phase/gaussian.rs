@@ -25,16 +25,11 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         params: &[&[
             Parameter::number(
                 "width",
-                "20",
+                20.0,
                 "deg",
-                "Width of the GaussianPhase, its standard deviation",
+                "Width of the Gaussian, its standard deviation",
             ),
-            Parameter::number(
-                "background",
-                "0.1",
-                "1",
-                "Height of the background against the peak",
-            ),
+            Parameter::number("background", 0.1, "1", "Height of the background against the peak"),
         ]],
         laws: Laws::NONE,
     },

@@ -24,7 +24,7 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         summary: "One lobe with a given mean cosine",
         equation: "p = (1-g^2)/(4 pi (1+g^2-2g cos(theta))^(3/2))",
         source: "henyey-greenstein-1941",
-        params: &[&[Parameter::number("g", "0.01", "1", "Mean cosine, -1 < g < 1")]],
+        params: &[&[Parameter::number("g", 0.01, "1", "Mean cosine, -1 < g < 1")]],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(HenyeyGreenstein::new(asymmetry(node, "g")?))),
@@ -39,11 +39,11 @@ pub const DOUBLE: Spec<dyn Phase> = Spec {
         equation: "p = |(1+c)/2 HG(g1) + (1-c)/2 HG(g2)|",
         source: "henyey-greenstein-1941",
         params: &[&[
-            Parameter::number("g1", "0.01", "1", "Mean cosine of the first lobe, -1 < g1 < 1"),
-            Parameter::number("g2", "0.01", "1", "Mean cosine of the second lobe, -1 < g2 < 1"),
+            Parameter::number("g1", 0.01, "1", "Mean cosine of the first lobe, -1 < g1 < 1"),
+            Parameter::number("g2", 0.01, "1", "Mean cosine of the second lobe, -1 < g2 < 1"),
             Parameter::number(
                 "c",
-                "0.1",
+                0.1,
                 "1",
                 "Balance of the lobes: 1 only the first, -1 the second",
             ),

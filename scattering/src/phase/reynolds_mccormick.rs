@@ -41,7 +41,7 @@ pub const DOUBLE: Spec<dyn Phase> = Spec {
         source: "reynolds-mccormick-1980",
         params: &[
             LOBE,
-            &[Parameter::number("c", "0.1", "1", "Balance: 1 only the lobe of g, -1 that of -g")],
+            &[Parameter::number("c", 0.1, "1", "Balance: 1 only the lobe of g, -1 that of -g")],
         ],
         laws: Laws::NONE,
     },
@@ -53,8 +53,8 @@ pub const DOUBLE: Spec<dyn Phase> = Spec {
 };
 
 const LOBE: &[Parameter] = &[
-    Parameter::number("g", "0.01", "1", "Asymmetry, -1 < g < 1"),
-    Parameter::number("alpha", "0.5", "1", "Exponent; 0.5 is Henyey-Greenstein"),
+    Parameter::number("g", 0.01, "1", "Asymmetry, -1 < g < 1"),
+    Parameter::number("alpha", 0.5, "1", "Exponent; 0.5 is Henyey-Greenstein"),
 ];
 
 /// One Reynolds–McCormick lobe.

@@ -16,7 +16,7 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         source: "chandrasekhar-1960",
         params: &[&[Parameter::table(
             "table",
-            "0.07957747",
+            0.07957747,
             "1/sr",
             "Phase function against the scattering angle in degrees",
         )]],

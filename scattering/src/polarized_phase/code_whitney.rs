@@ -32,9 +32,9 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         params: &[
             SCALAR,
             &[
-                Parameter::number("plmax", "1", "1", "Greatest linear polarization"),
-                Parameter::number("pcmax", "0", "1", "Greatest circular polarization"),
-                Parameter::number("s", "0", "1", "Skew of the circular polarization"),
+                Parameter::number("plmax", 1.0, "1", "Greatest linear polarization"),
+                Parameter::number("pcmax", 0.0, "1", "Greatest circular polarization"),
+                Parameter::number("s", 0.0, "1", "Skew of the circular polarization"),
             ],
         ],
         laws: Laws::NONE,
@@ -47,7 +47,7 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
             skew: node.number("s"),
         };
         if !phase.is_realizable() {
-            node.passes(ModelLimit::Unrealizable);
+            node.note_limit(ModelLimit::Unrealizable);
         }
         Ok(Box::new(phase))
     },
@@ -120,7 +120,7 @@ mod tests {
                     node.with(name, ParameterValue::Number(*x)).unwrap()
                 });
             spec::build::<dyn PolarizedPhase>(&node).unwrap();
-            let met = node.met.lock().unwrap();
+            let met = node.notices.lock().unwrap();
             met.contains(&ModelLimit::Unrealizable.into())
         };
         assert!(!told(&[]));

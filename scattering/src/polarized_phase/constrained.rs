@@ -25,20 +25,20 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         params: &[
             SCALAR,
             &[
-                value("m11_0", "1", "P11/p at 0 deg, also P22/p there"),
-                value("m11_60", "0", "P11/p at 60 deg"),
-                value("m11_120", "0", "P11/p at 120 deg"),
-                value("m11_180", "0", "P11/p at 180 deg, also -P22/p there"),
-                value("m22_60", "0", "P22/p at 60 deg"),
-                value("m22_120", "0", "P22/p at 120 deg"),
-                value("m33_0", "1", "P33/p at 0 deg"),
-                value("m33_60", "0", "P33/p at 60 deg"),
-                value("m33_120", "0", "P33/p at 120 deg"),
-                value("m33_180", "0", "P33/p at 180 deg"),
-                value("m10_60", "0", "P10/p at 60 deg"),
-                value("m10_120", "0", "P10/p at 120 deg"),
-                value("m23_60", "0", "P23/p at 60 deg"),
-                value("m23_120", "0", "P23/p at 120 deg"),
+                value("m11_0", 1.0, "P11/p at 0 deg, also P22/p there"),
+                value("m11_60", 0.0, "P11/p at 60 deg"),
+                value("m11_120", 0.0, "P11/p at 120 deg"),
+                value("m11_180", 0.0, "P11/p at 180 deg, also -P22/p there"),
+                value("m22_60", 0.0, "P22/p at 60 deg"),
+                value("m22_120", 0.0, "P22/p at 120 deg"),
+                value("m33_0", 1.0, "P33/p at 0 deg"),
+                value("m33_60", 0.0, "P33/p at 60 deg"),
+                value("m33_120", 0.0, "P33/p at 120 deg"),
+                value("m33_180", 0.0, "P33/p at 180 deg"),
+                value("m10_60", 0.0, "P10/p at 60 deg"),
+                value("m10_120", 0.0, "P10/p at 120 deg"),
+                value("m23_60", 0.0, "P23/p at 60 deg"),
+                value("m23_120", 0.0, "P23/p at 120 deg"),
             ],
         ],
         laws: Laws::NONE,
@@ -56,7 +56,7 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
     },
 };
 
-const fn value(name: &'static str, default: &'static str, doc: &'static str) -> Parameter {
+const fn value(name: &'static str, default: f64, doc: &'static str) -> Parameter {
     Parameter::number(name, default, "1", doc)
 }
 

@@ -19,7 +19,7 @@ use crate::{
         series::{AngularFunctions, MieSeries, terms},
     },
     size::{self, VolumeSize},
-    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
 /// Name, parameters and constructor of a [`DistributedMie`] phase matrix.
@@ -32,23 +32,17 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         source: "deirmendjian-1969",
         params: &[&[
             FREE_SPACE[0],
-            Parameter::index("medium", "(1.33,0)", "Index of the surrounding medium"),
-            Parameter::index("sphere", "(1,0)", "Index of the spheres"),
+            Parameter::index("medium", (1.33, 0.0), "Index of the surrounding medium"),
+            Parameter::index("sphere", (1.0, 0.0), "Index of the spheres"),
             Parameter::member(
                 "distribution",
-                Family::VolumeSize,
-                "VolumeParticleSizeDistribution",
+                &size::VOLUME_FAMILY,
                 "Regular_VolumeParticleSizeDistribution",
                 "Number of spheres per volume and diameter",
             ),
-            Parameter::number("integralStart", "0.1", "um", "Smallest diameter"),
-            Parameter::number("integralEnd", "100", "um", "Largest diameter"),
-            Parameter::number(
-                "integralStep",
-                "0.01",
-                "1",
-                "Step of the diameter over the diameter",
-            ),
+            Parameter::number("integralStart", 0.1, "um", "Smallest diameter"),
+            Parameter::number("integralEnd", 100.0, "um", "Largest diameter"),
+            Parameter::number("integralStep", 0.01, "1", "Step of the diameter over the diameter"),
         ]],
         laws: Laws::NONE,
     },

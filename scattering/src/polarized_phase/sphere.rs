@@ -14,8 +14,8 @@ use std::f64::consts::{PI, TAU};
 use super::PolarizedPhase;
 use crate::{
     Defect, Jones, Mueller,
-    scatterer::{CrossSections, Scatterer, SphericalScatterer},
-    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
+    scatterer::{self, CrossSections, Scatterer, SphericalScatterer},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
 /// Name, parameters and constructor of a suspension of equal [`Spheres`].
@@ -27,14 +27,14 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
         equation: "P = M(diag(S2,S1))/(k^2 Csca), kappa_s = N Csca, kappa_a = N (Cext-Csca)",
         source: "bohren-huffman-1983",
         params: &[&[
-            Parameter::member(
+            Parameter::member_below(
                 "scatterer",
-                Family::Scatterer,
+                &scatterer::FAMILY,
                 "SphericalScatterer",
                 "MieScatterer",
                 "The sphere; its lambda and medium are its own",
             ),
-            Parameter::number("volume_density", "1E-4", "1/um^3", "Number of spheres per volume"),
+            Parameter::number("volume_density", 1e-4, "1/um^3", "Number of spheres per volume"),
         ]],
         laws: Laws::NONE,
     },
@@ -128,10 +128,11 @@ mod tests {
 
     fn build(mode: Mode, scatterer: &str) -> Box<dyn PolarizedPhase> {
         let index = |n, k| ParameterValue::Index(RefractiveIndex::constant(n, k));
-        let inner = ParameterNode::with_defaults(spec::find_class(scatterer).unwrap(), mode)
-            .with("medium", index(1.5, 0.0))
-            .and_then(|node| node.with("sphere", index(1.6, 0.01)))
-            .unwrap();
+        let inner =
+            ParameterNode::with_defaults(crate::registry::find_class(scatterer).unwrap(), mode)
+                .with("medium", index(1.5, 0.0))
+                .and_then(|node| node.with("sphere", index(1.6, 0.01)))
+                .unwrap();
         let node = ParameterNode::with_defaults(&SPEC.class, mode)
             .with("scatterer", ParameterValue::Member(Arc::new(inner)))
             .unwrap();
@@ -159,7 +160,7 @@ mod tests {
 
     #[test]
     fn chiral_spheres_are_refused() {
-        let class = spec::find_class("Optically_Active_Sphere_Scatterer").unwrap();
+        let class = crate::registry::find_class("Optically_Active_Sphere_Scatterer").unwrap();
         let inner = ParameterNode::with_defaults(class, Mode::Sound);
         let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound)
             .with("scatterer", ParameterValue::Member(Arc::new(inner)))

@@ -22,9 +22,9 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = A/(1+(B f)^2)^(C/2)",
         source: "church-1991",
         params: &[&[
-            Parameter::number("A", "0.01", "um^4", "Density at zero frequency"),
-            Parameter::number("B", "362", "um", "Correlation length"),
-            Parameter::number("C", "2.5", "1", "Exponent of the fall"),
+            Parameter::number("A", 0.01, "um^4", "Density at zero frequency"),
+            Parameter::number("B", 362.0, "um", "Correlation length"),
+            Parameter::number("C", 2.5, "1", "Exponent of the fall"),
         ]],
         laws: Laws::NONE,
     },

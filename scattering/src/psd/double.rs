@@ -5,8 +5,8 @@
 //! J. C. Stover, *Optical Scattering: Measurement and Analysis*, 3rd ed. (SPIE, 2012), chapter 4.
 
 use crate::{
-    psd::Psd,
-    spec::{Class, Family, Laws, Parameter, Spec},
+    psd::{FAMILY, Psd},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// Name, parameters and constructor of a [`DoublePsd`].
@@ -29,7 +29,7 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 };
 
 const fn part(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter::member(name, Family::Psd, "PSD_Function", "ABC_PSD_Function", doc)
+    Parameter::member(name, &FAMILY, "ABC_PSD_Function", doc)
 }
 
 /// A sum of two spectra.

@@ -15,10 +15,10 @@ use crate::{
 
 /// The parameters of every class of such features.
 pub(super) const ELLIPTIC: &[Parameter] = &[
-    Parameter::number("axisx", "1.5", "um", "Full axis along x"),
-    Parameter::number("axisy", "1.5", "um", "Full axis along y"),
-    Parameter::number("height", "0.01", "um", "Height of one"),
-    Parameter::number("density", "0.01", "1/um^2", "Number per area"),
+    Parameter::number("axisx", 1.5, "um", "Full axis along x"),
+    Parameter::number("axisy", 1.5, "um", "Full axis along y"),
+    Parameter::number("height", 0.01, "um", "Height of one"),
+    Parameter::number("density", 0.01, "1/um^2", "Number per area"),
 ];
 
 /// Features whose transform is J_N(z)/z^N of an ellipse.

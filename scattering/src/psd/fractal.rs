@@ -22,8 +22,8 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = A/f^exponent",
         source: "church-1988",
         params: &[&[
-            Parameter::number("A", "0.01", "um^(4-exponent)", "Density at 1/um"),
-            Parameter::number("exponent", "2.5", "1", "Exponent of the fall"),
+            Parameter::number("A", 0.01, "um^(4-exponent)", "Density at 1/um"),
+            Parameter::number("exponent", 2.5, "1", "Exponent of the fall"),
         ]],
         laws: Laws::NONE,
     },

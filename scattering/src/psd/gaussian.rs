@@ -23,8 +23,8 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = pi (sigma length)^2 exp(-(pi length f)^2)",
         source: "elson-1979",
         params: &[&[
-            Parameter::number("sigma", "0.05", "um", "Rms height"),
-            Parameter::number("length", "5", "um", "Correlation length"),
+            Parameter::number("sigma", 0.05, "um", "Rms height"),
+            Parameter::number("length", 5.0, "um", "Correlation length"),
         ]],
         laws: Laws::NONE,
     },

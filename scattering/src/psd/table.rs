@@ -22,7 +22,7 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         source: "stover-2012",
         params: &[&[Parameter::table(
             "T",
-            "1",
+            1.0,
             "um^4",
             "Spectral density as a function of spatial frequency (1/um)",
         )]],

@@ -27,9 +27,9 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         equation: "PSD = density height^2 |FT(triangle)|^2",
         source: "deboor-2005",
         params: &[&[
-            Parameter::number("side", "1.5", "um", "Length of a side"),
-            Parameter::number("height", "0.01", "um", "Height of one"),
-            Parameter::number("density", "0.01", "1/um^2", "Number per area"),
+            Parameter::number("side", 1.5, "um", "Length of a side"),
+            Parameter::number("height", 0.01, "um", "Height of one"),
+            Parameter::number("density", 0.01, "1/um^2", "Number per area"),
         ]],
         laws: Laws::NONE,
     },

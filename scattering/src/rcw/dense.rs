@@ -10,7 +10,9 @@ use faer::{
 };
 use num_complex::Complex64;
 
-use super::{ComplexMatrix, ONE};
+use crate::special::matrix::ComplexMatrix;
+
+const ONE: Complex64 = Complex64::ONE;
 
 /// a⁻¹ b by LU factorization with partial pivoting; both are used up.
 pub(super) fn solve(mut a: ComplexMatrix, mut b: ComplexMatrix) -> ComplexMatrix {

@@ -10,7 +10,7 @@
 
 use num_complex::Complex64;
 
-use super::ComplexMatrix;
+use crate::special::matrix::ComplexMatrix;
 
 /// One kind of material constant, ε or μ, as it acts on lateral and normal fields.
 #[derive(Clone, Debug)]

@@ -15,12 +15,17 @@
 //! *Multiple Light Scattering* (1980), for adding and doubling.
 
 use super::{
-    ComplexMatrix, I, ONE,
     dense::{
         add_product, cayley, column_norm, combination, half_sum_and_difference, identity, solve,
     },
     layer::CoupledOperators,
 };
+use num_complex::Complex64;
+
+use crate::special::matrix::ComplexMatrix;
+
+const I: Complex64 = Complex64::I;
+const ONE: Complex64 = Complex64::ONE;
 
 /// Largest argument of the tangent; at 1.25 its ninth convergent is right to 3·10⁻¹⁵, and the
 /// first pole is at 1.57.

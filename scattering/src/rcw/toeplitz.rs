@@ -2,10 +2,8 @@
 
 use num_complex::Complex64;
 
-use super::{
-    ComplexMatrix,
-    dense::{identity, solve},
-};
+use super::dense::{identity, solve};
+use crate::special::matrix::ComplexMatrix;
 
 /// Fourier coefficients −M…M of a periodic function.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! Reflectance given by a formula of the wavelength in µm.
 
 use super::Reflectance;
-use crate::spec::{Class, FormulaFn, Laws, Parameter, ParameterKind, Spec};
+use crate::optics::FormulaFn;
+use crate::spec::{Class, Laws, Parameter, ParameterKind, Spec};
 
 /// Name, parameters and constructor of an [`EquationReflectance`].
 pub const SPEC: Spec<dyn Reflectance> = Spec {
@@ -13,8 +14,7 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
         source: "nicodemus-1977",
         params: &[&[Parameter {
             name: "expression",
-            kind: ParameterKind::Formula,
-            default: "1",
+            kind: ParameterKind::Formula(1.0),
             unit: "1",
             doc: "Reflectance as a formula of x, the wavelength in um",
         }]],

@@ -15,7 +15,8 @@ use super::Reflectance;
 use crate::{
     Defect, ParameterNode,
     optics::RealFunction,
-    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
+    reflectance::FAMILY,
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
 /// Name, parameters and constructor of a [`KubelkaMunk`] layer.
@@ -27,23 +28,22 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
         equation: "R = (Rg + (S-(S+K)Rg)tau)/(1 + (S+K-S Rg)tau), tau = tanh(bt)/b, b^2 = K(K+2S)",
         source: "kubelka-munk-1931 kubelka-1948",
         params: &[&[
-            Parameter::number("thickness", "1", "um", "Thickness of the layer"),
+            Parameter::number("thickness", 1.0, "um", "Thickness of the layer"),
             Parameter::table(
                 "absorption",
-                "1",
+                1.0,
                 "1/um",
                 "Absorption coefficient against wavelength",
             ),
             Parameter::table(
                 "scattering",
-                "1",
+                1.0,
                 "1/um",
                 "Scattering coefficient against wavelength",
             ),
             Parameter::member(
                 "substrate",
-                Family::Reflectance,
-                "Reflectance",
+                &FAMILY,
                 "Table_Reflectance",
                 "Reflectance of the backing",
             ),
@@ -143,7 +143,7 @@ mod tests {
         // K = S = 1/µm: a = 2, R∞ = 2 − √3.
         let (sound, node) = build(Mode::Sound, 1000.0);
         assert!((sound.at(0.5) - (2.0 - 3f64.sqrt())).abs() < 1e-15);
-        assert!(node.met.lock().unwrap().contains(&Defect::KubelkaOverflow.into()));
+        assert!(node.notices.lock().unwrap().contains(&Defect::KubelkaOverflow.into()));
         assert!(build(Mode::Compat, 1000.0).0.at(0.5).is_nan());
         assert!(build(Mode::Compat, 100.0).0.at(0.5).is_finite());
     }

@@ -14,7 +14,7 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
         summary: "Reflectance from a table or a constant",
         equation: "R = table(lambda)",
         source: "nicodemus-1977",
-        params: &[&[Parameter::table("table", "1", "1", "Reflectance against wavelength in um")]],
+        params: &[&[Parameter::table("table", 1.0, "1", "Reflectance against wavelength in um")]],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(TableReflectance { table: node.table("table").clone() })),

@@ -23,16 +23,16 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
             FREE_SPACE,
             SPHERE,
             &[
-                Parameter::index("coating", "(1,0)", "Index of the coat"),
+                Parameter::index("coating", (1.0, 0.0), "Index of the coat"),
                 Parameter::number(
                     "thickness",
-                    "0",
+                    0.0,
                     "um",
                     "Thickness of the coat, inside the radius",
                 ),
                 Parameter::integer(
                     "nmax",
-                    "0",
+                    0,
                     "Terms of the series: 0 as many as needed, -n that many less, n exactly n",
                 ),
             ],

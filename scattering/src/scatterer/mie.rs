@@ -195,7 +195,7 @@ mod tests {
             let node = ParameterNode::with_defaults(&SPEC.class, mode);
             let around = HostMedium { lambda: 0.55, medium: Complex64::ONE };
             let sphere = Mie::homogeneous(&node, around, Complex64::new(1.33, 0.0), radius);
-            (sphere.amplitudes(0.4536).ss, !node.met.lock().unwrap().is_empty())
+            (sphere.amplitudes(0.4536).ss, !node.notices.lock().unwrap().is_empty())
         };
         let ((compat, _), (sound, met)) = (at(Mode::Compat, 5.0), at(Mode::Sound, 5.0));
         let relative = (compat - sound).norm() / sound.norm();

@@ -7,8 +7,8 @@
 
 use super::{FREE_SPACE, HostMedium, SPHERE, Scatterer, layered::SphereShell, mie::Mie, series};
 use crate::{
-    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
-    stack::Stack,
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
+    stack::{self, Stack},
 };
 
 /// Name, parameters and constructor of a sphere with coats.
@@ -24,8 +24,7 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
             SPHERE,
             &[Parameter::member(
                 "stack",
-                Family::Stack,
-                "StackModel",
+                &stack::FAMILY,
                 "No_StackModel",
                 "Coats, the innermost first",
             )],
@@ -67,7 +66,7 @@ mod tests {
 
     fn coated(thickness: f64) -> Result<Box<dyn Scatterer>, ParameterError> {
         let film = ParameterNode::with_defaults(
-            spec::find_class("SingleFilm_StackModel").unwrap(),
+            crate::registry::find_class("SingleFilm_StackModel").unwrap(),
             Mode::Sound,
         )
         .with("material", ParameterValue::Index(RefractiveIndex::constant(1.4, 0.3)))?

@@ -36,9 +36,9 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         params: &[
             FREE_SPACE,
             &[
-                Parameter::index("materialleft", "(1.59,0)", "Index for left circular light"),
-                Parameter::index("materialright", "(1.59,0)", "Index for right circular light"),
-                Parameter::number("radius", "1", "um", "Radius"),
+                Parameter::index("materialleft", (1.59, 0.0), "Index for left circular light"),
+                Parameter::index("materialright", (1.59, 0.0), "Index for right circular light"),
+                Parameter::number("radius", 1.0, "um", "Radius"),
             ],
         ],
         laws: Laws::NONE,

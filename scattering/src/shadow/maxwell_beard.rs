@@ -22,8 +22,8 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         equation: "G = (1 + (tn/Omega) exp(-2 beta/tau))/(1 + tn/Omega)",
         source: "maxwell-1973",
         params: &[&[
-            Parameter::number("Omega", "0.7", "rad", "Scale of the facet tilt"),
-            Parameter::number("tau", "0.25", "rad", "Scale of the angle of incidence on the facet"),
+            Parameter::number("Omega", 0.7, "rad", "Scale of the facet tilt"),
+            Parameter::number("tau", 0.25, "rad", "Scale of the angle of incidence on the facet"),
         ]],
         laws: Laws::NONE,
     },

@@ -41,17 +41,17 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         params: &[&[
             Parameter::number(
                 "sigmax",
-                "0",
+                0.0,
                 "1",
                 "Standard deviation of the slope along x; 0: that of sdf",
             ),
             Parameter::number(
                 "sigmay",
-                "0",
+                0.0,
                 "1",
                 "Standard deviation of the slope along y; 0: that of sdf",
             ),
-            Parameter::integer("azimuth", "0", "Equal azimuths: 0 a jump, 1 ignored, 2 smooth"),
+            Parameter::integer("azimuth", 0, "Equal azimuths: 0 a jump, 1 ignored, 2 smooth"),
         ]],
         laws: Laws::NONE,
     },

@@ -32,7 +32,7 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         summary: "Gaussian surface, averaged over facet slopes",
         equation: "G = g(ti) g(ts), g = (1 - erfc(mu/(sqrt(2) w))/2)/(1 + Lambda), mu = cot theta",
         source: "smith-1967",
-        params: &[&[Parameter::number("w", "0.35", "1", "Rms slope along one axis")]],
+        params: &[&[Parameter::number("w", 0.35, "1", "Rms slope along one axis")]],
         laws: Laws::NONE,
     },
     build: |node| {

@@ -19,7 +19,7 @@ pub const SPEC: Spec<dyn Shadow> = Spec {
         summary: "Product of two values of a table",
         equation: "G = T(ti) T(ts)",
         source: "torrance-1967",
-        params: &[&[Parameter::table("T", "1", "1", "Function of the polar angle in radians")]],
+        params: &[&[Parameter::table("T", 1.0, "1", "Function of the polar angle in radians")]],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(TableShadow { table: node.table("T").clone() })),

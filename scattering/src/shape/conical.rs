@@ -24,12 +24,12 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Parameter::number("radius", "0.05", "um", "Radius of the base"),
-                Parameter::number("height", "0.1", "um", "Height"),
-                Parameter::number("offset", "0", "um", "Centre of mass below the origin"),
-                Parameter::number("corner_base", "0", "um", "Radius of the edge of the base"),
-                Parameter::number("corner_apex", "0", "um", "Radius of the apex"),
-                Parameter::integer("updown", "0", "0 base down, 1 apex down"),
+                Parameter::number("radius", 0.05, "um", "Radius of the base"),
+                Parameter::number("height", 0.1, "um", "Height"),
+                Parameter::number("offset", 0.0, "um", "Centre of mass below the origin"),
+                Parameter::number("corner_base", 0.0, "um", "Radius of the edge of the base"),
+                Parameter::number("corner_apex", 0.0, "um", "Radius of the apex"),
+                Parameter::integer("updown", 0, "0 base down, 1 apex down"),
             ],
             &RENORM,
         ],

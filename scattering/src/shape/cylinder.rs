@@ -21,9 +21,9 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Parameter::number("radius", "0.05", "um", "Radius"),
-                Parameter::number("length", "0.1", "um", "Length"),
-                Parameter::number("corner", "0", "um", "Radius of the edges"),
+                Parameter::number("radius", 0.05, "um", "Radius"),
+                Parameter::number("length", 0.1, "um", "Length"),
+                Parameter::number("corner", 0.0, "um", "Radius of the edges"),
             ],
             &RENORM,
         ],

@@ -21,10 +21,10 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Parameter::number("height", "0.1", "um", "Height from apex to apex"),
-                Parameter::number("radius", "0.05", "um", "Radius of the waist"),
-                Parameter::number("corner_apex", "0", "um", "Radius of both apices"),
-                Parameter::number("corner_waist", "0", "um", "Radius of the edge of the waist"),
+                Parameter::number("height", 0.1, "um", "Height from apex to apex"),
+                Parameter::number("radius", 0.05, "um", "Radius of the waist"),
+                Parameter::number("corner_apex", 0.0, "um", "Radius of both apices"),
+                Parameter::number("corner_waist", 0.0, "um", "Radius of the edge of the waist"),
             ],
             &RENORM,
         ],

@@ -23,7 +23,7 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &AXES,
-            &[Parameter::number("offset", "0", "um", "Centre below the origin of the multipoles")],
+            &[Parameter::number("offset", 0.0, "um", "Centre below the origin of the multipoles")],
         ],
         laws: Laws::NONE,
     },
@@ -40,8 +40,8 @@ pub const SPEC: Spec<Shape> = Spec {
 
 /// The half axes.
 pub(super) const AXES: [Parameter; 2] = [
-    Parameter::number("vertical", "0.05", "um", "Half axis along the axis of revolution"),
-    Parameter::number("horizontal", "0.05", "um", "Half axis across it"),
+    Parameter::number("vertical", 0.05, "um", "Half axis along the axis of revolution"),
+    Parameter::number("horizontal", 0.05, "um", "Half axis across it"),
 ];
 
 /// The ellipsoid at `points` nodes.

@@ -25,20 +25,15 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &[
-                Parameter::number(
-                    "vertical",
-                    "0.05",
-                    "um",
-                    "Half axis along the axis of revolution",
-                ),
+                Parameter::number("vertical", 0.05, "um", "Half axis along the axis of revolution"),
                 Parameter::number(
                     "horizontal",
-                    "0",
+                    0.0,
                     "um",
                     "Half axis across it; 0: the vertical one",
                 ),
-                Parameter::number("indent", "0.01", "um", "Depth of the dent"),
-                Parameter::integer("updown", "0", "0 dent on top, 1 dent below"),
+                Parameter::number("indent", 0.01, "um", "Depth of the dent"),
+                Parameter::integer("updown", 0, "0 dent on top, 1 dent below"),
             ],
             &RENORM,
         ],

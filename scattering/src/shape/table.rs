@@ -25,11 +25,11 @@ pub const SPEC: Spec<Shape> = Spec {
             &[
                 Parameter::table(
                     "table",
-                    "0.05",
+                    0.05,
                     "um",
                     "Distance from the origin over the angle, deg",
                 ),
-                Parameter::number("scale", "1", "1", "Factor of the distances"),
+                Parameter::number("scale", 1.0, "1", "Factor of the distances"),
             ],
         ],
         laws: Laws::NONE,

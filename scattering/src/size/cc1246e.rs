@@ -32,8 +32,8 @@ pub const SPEC: Spec<dyn SurfaceSize> = Spec {
         equation: "n = 2 lg(e)/1e11 exp(s lg(e) (ln(c)^2-ln(d)^2)) s ln(d)/d C(0.926)/C(s), d >= 1",
         source: "iest-cc1246e-2013",
         params: &[&[
-            Parameter::number("cleanliness", "1000", "um", "Cleanliness level c"),
-            Parameter::number("slope", "0.926", "1", "Slope s of the distribution"),
+            Parameter::number("cleanliness", 1000.0, "um", "Cleanliness level c"),
+            Parameter::number("slope", 0.926, "1", "Slope s of the distribution"),
         ]],
         laws: Laws::NONE,
     },

@@ -3,8 +3,8 @@
 use super::{SurfaceSize, VolumeSize};
 use crate::{
     ParameterNode,
-    distribution::Distribution,
-    spec::{Class, Family, Laws, Parameter, ParameterError, Spec},
+    distribution::{self, Distribution},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
 
 /// Name, parameters and constructor of a [`Regular`] distribution over a volume.
@@ -17,7 +17,7 @@ pub const VOLUME: Spec<dyn VolumeSize> = Spec {
         source: "deirmendjian-1969",
         params: &[&[
             DISTRIBUTION,
-            Parameter::number("numberdensity", "1E-5", "1/um^3", "Number of particles per volume"),
+            Parameter::number("numberdensity", 1e-5, "1/um^3", "Number of particles per volume"),
         ]],
         laws: Laws::NONE,
     },
@@ -34,7 +34,7 @@ pub const SURFACE: Spec<dyn SurfaceSize> = Spec {
         source: "deirmendjian-1969",
         params: &[&[
             DISTRIBUTION,
-            Parameter::number("numberdensity", "0.001", "1/um^2", "Number of particles per area"),
+            Parameter::number("numberdensity", 0.001, "1/um^2", "Number of particles per area"),
         ]],
         laws: Laws::NONE,
     },
@@ -43,8 +43,7 @@ pub const SURFACE: Spec<dyn SurfaceSize> = Spec {
 
 const DISTRIBUTION: Parameter = Parameter::member(
     "distribution",
-    Family::Distribution,
-    "Distribution",
+    &distribution::FAMILY,
     "Log_Normal_Distribution",
     "Density of the diameter",
 );

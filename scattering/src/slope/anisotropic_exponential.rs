@@ -25,8 +25,8 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         equation: "S = 3/(pi sx sy) exp(-sqrt(6 (zeta_x^2/sx^2 + zeta_y^2/sy^2)))",
         source: "torrance-1967",
         params: &[&[
-            Parameter::number("sx", "0.1", "1", "sqrt(2) times the rms slope along x"),
-            Parameter::number("sy", "0.01", "1", "sqrt(2) times the rms slope along y"),
+            Parameter::number("sx", 0.1, "1", "sqrt(2) times the rms slope along x"),
+            Parameter::number("sy", 0.01, "1", "sqrt(2) times the rms slope along y"),
         ]],
         laws: Laws::NONE,
     },

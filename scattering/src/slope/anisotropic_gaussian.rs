@@ -30,9 +30,9 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         equation: "S = 1/(2 pi sigmax sigmay) exp(-(zeta_x^2/sigmax^2 + zeta_y^2/sigmay^2)/2)",
         source: "cox-1954",
         params: &[&[
-            Parameter::number("sigmax", "0.1", "1", "Standard deviation of the slope along x"),
-            Parameter::number("sigmay", "0.1", "1", "Standard deviation of the slope along y"),
-            Parameter::integer("printed", "0", "1: the exponential that the paper prints for it"),
+            Parameter::number("sigmax", 0.1, "1", "Standard deviation of the slope along x"),
+            Parameter::number("sigmay", 0.1, "1", "Standard deviation of the slope along y"),
+            Parameter::integer("printed", 0, "1: the exponential that the paper prints for it"),
         ]],
         laws: Laws::NONE,
     },

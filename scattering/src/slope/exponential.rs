@@ -21,7 +21,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         summary: "Isotropic exponential density of slopes",
         equation: "S = 3/(pi s^2) exp(-sqrt(6) zeta/s)",
         source: "torrance-1967",
-        params: &[&[Parameter::number("s", "0.1", "1", "Total rms slope")]],
+        params: &[&[Parameter::number("s", 0.1, "1", "Total rms slope")]],
         laws: Laws::NONE,
     },
     build: |node| {

@@ -19,7 +19,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         summary: "Exponential density of the tilt angle",
         equation: "S = 3 exp(-sqrt(6) theta/sigma)/(pi sigma^2 N (1+zeta^2)^2)",
         source: "torrance-1967",
-        params: &[&[Parameter::number("sigma", "5", "deg", "Width in tilt angle")]],
+        params: &[&[Parameter::number("sigma", 5.0, "deg", "Width in tilt angle")]],
         laws: Laws::NONE,
     },
     build: |node| {

@@ -20,10 +20,10 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     class: Class {
         name: "Gaussian_Slope_Distribution_Function",
         parent: "Slope_Distribution_Function",
-        summary: "Isotropic GaussianSlope density of slopes",
+        summary: "Isotropic Gaussian density of slopes",
         equation: "S = 1/(pi s^2) exp(-zeta^2/s^2)",
         source: "torrance-1967",
-        params: &[&[Parameter::number("s", "0.1", "1", "Total rms slope")]],
+        params: &[&[Parameter::number("s", 0.1, "1", "Total rms slope")]],
         laws: Laws::NONE,
     },
     build: |node| {

@@ -3,16 +3,13 @@
 //! $$ S = (1-f)\,S_1 + f\,S_2 $$
 
 use super::SlopeDistribution;
-use crate::spec::{Class, Family, Laws, Parameter, ParameterError, Spec};
+use crate::{
+    slope::FAMILY,
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
+};
 
 const fn part(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter::member(
-        name,
-        Family::Slope,
-        "Slope_Distribution_Function",
-        "Exponential_Slope_Distribution_Function",
-        doc,
-    )
+    Parameter::member(name, &FAMILY, "Exponential_Slope_Distribution_Function", doc)
 }
 
 /// Name, parameters and constructor of the class.
@@ -26,7 +23,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         params: &[&[
             part("s1", "First density"),
             part("s2", "Second density"),
-            Parameter::number("fract", "0.5", "1", "Share of the second density"),
+            Parameter::number("fract", 0.5, "1", "Share of the second density"),
         ]],
         laws: Laws::NONE,
     },

@@ -18,7 +18,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         summary: "Density tabulated against the slope",
         equation: "S = T(zeta)",
         source: "torrance-1967",
-        params: &[&[Parameter::table("T", "1", "1", "Density as a function of the slope")]],
+        params: &[&[Parameter::table("T", 1.0, "1", "Density as a function of the slope")]],
         laws: Laws::NONE,
     },
     build: |node| Ok(Box::new(TableSlope { table: node.table("T").clone() })),

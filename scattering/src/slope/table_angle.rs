@@ -23,7 +23,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
         source: "torrance-1967",
         params: &[&[Parameter::table(
             "T",
-            "1",
+            1.0,
             "1",
             "Density as a function of the tilt angle in degrees",
         )]],

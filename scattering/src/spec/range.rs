@@ -7,8 +7,6 @@ use crate::optics::{RealFunction, RefractiveIndex};
 
 /// Numbers beyond this are mistakes in every unit that parameters have, and their powers overflow.
 const LARGEST: f64 = 1e30;
-/// Numbers below this are nothing in every unit that parameters have, and their powers vanish.
-pub(super) const LEAST: f64 = 1e-30;
 /// Indices of refraction beyond this belong to no material from X-rays to microwaves.
 const LARGEST_INDEX: f64 = 1e6;
 /// Nor do indices below this.

@@ -14,7 +14,6 @@ pub const SPEC: Spec<Stack> = Spec {
         params: &[&[Parameter {
             name: "stack",
             kind: ParameterKind::Films,
-            default: "",
             unit: "um",
             doc: "Films as pairs of material and thickness, in order of growth",
         }]],

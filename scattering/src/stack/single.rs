@@ -12,8 +12,8 @@ pub const SPEC: Spec<Stack> = Spec {
         equation: "(n, t)",
         source: "born-1999",
         params: &[&[
-            Parameter::index("material", "(1.5,0)", "Index of the film"),
-            Parameter::number("thickness", "0.1", "um", "Thickness of the film"),
+            Parameter::index("material", (1.5, 0.0), "Index of the film"),
+            Parameter::number("thickness", 0.1, "um", "Thickness of the film"),
         ]],
         laws: Laws::NONE,
     },

@@ -123,7 +123,7 @@ fn a_model_beyond_its_limits_says_so() {
     let noted = |params: &[(&str, &str)]| {
         let node = node("Pigmented_Coating_BRDF_Model", params, Mode::Sound);
         models::build(&node).unwrap();
-        let met = node.met.lock().unwrap();
+        let met = node.notices.lock().unwrap();
         met.iter().copied().collect::<Vec<_>>()
     };
     assert!(noted(&[]).is_empty());

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use scattering::{Basis, Family, Geometry, Model, Mueller, ParameterValue, models, spec};
+use scattering::{Basis, Geometry, Model, Mueller, ParameterValue, cross_grating, grating, models};
 
 use super::parts::{ALPHA, LineStack, efficiency, index, integer, member, model, node, number};
 
@@ -308,9 +308,9 @@ fn upper_grating_alone_may_be_moved_sideways() {
 
 #[test]
 fn every_grating_may_stand_where_a_grating_is_wanted() {
-    for family in [Family::Grating, Family::CrossGrating] {
+    for family in [&grating::FAMILY, &cross_grating::FAMILY] {
         for class in family.classes() {
-            assert!(spec::is_below(class.name, family.base()), "{}", class.name);
+            assert!(family.is_below(class.name, family.base), "{}", class.name);
         }
     }
 }

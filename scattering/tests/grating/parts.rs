@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use scattering::{
     Basis, Direction, Geometry, Mode, Model, Mueller, ParameterNode, ParameterValue, Stokes,
-    models, optics::RefractiveIndex, spec::find_class,
+    models, optics::RefractiveIndex, registry::find_class,
 };
 
 /// The class `name` with the parameters given, the others at their defaults.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use scattering::{
     Class, Mode, ParameterKind, ParameterNode, ParameterValue,
     optics::{AbscissaScale, RealFunction, RefractiveIndex, TableInterpolation},
-    spec::find_class,
+    registry::find_class,
     stack::Film,
 };
 
@@ -43,16 +43,16 @@ fn set(node: &mut ParameterNode, path: &str, text: &str) {
 
 fn value(kind: ParameterKind, text: &str, node: &ParameterNode) -> ParameterValue {
     match kind {
-        ParameterKind::Number => ParameterValue::Number(number(text)),
-        ParameterKind::Integer => ParameterValue::Integer(text.parse().unwrap()),
+        ParameterKind::Number(_) => ParameterValue::Number(number(text)),
+        ParameterKind::Integer(_) => ParameterValue::Integer(text.parse().unwrap()),
         ParameterKind::Text => ParameterValue::Text(text.into()),
         ParameterKind::File => ParameterValue::Text(file(text).into()),
-        ParameterKind::Formula => formula(text),
-        ParameterKind::Index => ParameterValue::Index(index(text)),
-        ParameterKind::Table => ParameterValue::Table(table(text)),
+        ParameterKind::Formula(_) => formula(text),
+        ParameterKind::Index { .. } => ParameterValue::Index(index(text)),
+        ParameterKind::Table(_) => ParameterValue::Table(table(text)),
         ParameterKind::Films => ParameterValue::Films(films(text)),
-        ParameterKind::Member(..) => ParameterValue::Member(Arc::new(
-            ParameterNode::with_defaults_noting(class(text), node.mode, node.met.clone()),
+        ParameterKind::Member { .. } => ParameterValue::Member(Arc::new(
+            ParameterNode::with_defaults_noting(class(text), node.mode, node.notices.clone()),
         )),
     }
 }

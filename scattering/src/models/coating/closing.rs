@@ -15,8 +15,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{
+    coat::{Absorption, CoatLayer, LayersAbove},
     interface::{InterfaceRay, realizable},
-    layered::{Absorption, CoatLayer, LayersAbove},
     returned::{DirectionalAlbedo, ErrorSign},
 };
 use crate::{Direction, Incidence, special::gauss};

@@ -15,9 +15,10 @@ use num_complex::Complex64;
 
 use crate::{
     ParameterError, ParameterNode,
-    optics::{RealFunction, RefractiveIndex},
-    spec::{Family, ParameterKind, ParameterValue, is_below},
-    stack::Film,
+    models::brdf,
+    optics::{Film, RealFunction, RefractiveIndex},
+    reflectance,
+    spec::{Family, ParameterKind, ParameterValue},
 };
 
 /// Classes, and all below them, that are not defined below a coat, with the reason.
@@ -42,7 +43,7 @@ pub(super) fn immersed(
     n: f64,
     lambda: f64,
 ) -> Result<ParameterNode, ParameterError> {
-    ImmersionMedium { n, lambda }.immerse(name, node, Family::Brdf)
+    ImmersionMedium { n, lambda }.immerse(name, node, &brdf::FAMILY)
 }
 
 /// The medium of the light.
@@ -57,17 +58,17 @@ impl ImmersionMedium {
         &self,
         name: &str,
         node: &ParameterNode,
-        family: Family,
+        family: &Family,
     ) -> Result<ParameterNode, ParameterError> {
         let class = node.class.name;
-        if let Some((_, why)) = MEANINGLESS.iter().find(|(base, _)| is_below(class, base)) {
+        if let Some((_, why)) = MEANINGLESS.iter().find(|(base, _)| family.is_below(class, base)) {
             let problem = format!("{class} has no meaning below a coat: {why}");
             return Err(ParameterError::new(name, problem));
         }
         let mut node = node.clone();
         for (value, param) in node.values.iter_mut().zip(node.class.parameters()) {
             *value = match (&*value, param.kind) {
-                (ParameterValue::Member(child), ParameterKind::Member(family, _)) => {
+                (ParameterValue::Member(child), ParameterKind::Member { family, .. }) => {
                     let inner = self.immerse(param.name, child, family);
                     ParameterValue::Member(Arc::new(inner.map_err(|error| error.inside(name))?))
                 }
@@ -84,10 +85,10 @@ impl ImmersionMedium {
                     ParameterValue::Index(index.clone())
                 }
                 // Functions of wavelength; those of other families are functions of an angle.
-                (ParameterValue::Table(table), _) if family == Family::Reflectance => {
+                (ParameterValue::Table(table), _) if *family == reflectance::FAMILY => {
                     ParameterValue::Table(RealFunction::constant(table.at(self.lambda)))
                 }
-                (ParameterValue::Formula(formula), _) if family == Family::Reflectance => {
+                (ParameterValue::Formula(formula), _) if *family == reflectance::FAMILY => {
                     let at_lambda = formula(self.lambda);
                     ParameterValue::Formula(Arc::new(move |_| at_lambda))
                 }
@@ -119,12 +120,12 @@ impl ImmersionMedium {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Basis, Geometry, Mode, models, spec};
+    use crate::{Basis, Geometry, Mode, models};
 
     use super::*;
 
     fn defaults(name: &str) -> ParameterNode {
-        ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+        ParameterNode::with_defaults(crate::registry::find_class(name).unwrap(), Mode::Sound)
     }
 
     #[test]

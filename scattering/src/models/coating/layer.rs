@@ -9,7 +9,9 @@
 use crate::{
     ParameterNode,
     optics::RefractiveIndex,
-    spec::{Class, Family, Laws, Member, Parameter, ParameterError, Spec},
+    shadow, slope,
+    spec::{self, Class, Family, Laws, Member, Parameter, ParameterError, Spec},
+    stack,
 };
 
 /// Name, parameters and constructor of the class.
@@ -21,26 +23,23 @@ pub const SPEC: Spec<CoatingLayer> = Spec {
         equation: "A = exp(-4 pi k t/(lambda cos(theta')))",
         source: "born-1999",
         params: &[&[
-            Parameter::index("material", "(1.5,0)", "Index of the layer; n at least 1"),
-            Parameter::number("thickness", "10", "um", "Thickness; 0: no layer"),
+            Parameter::index("material", (1.5, 0.0), "Index of the layer; n at least 1"),
+            Parameter::number("thickness", 10.0, "um", "Thickness; 0: no layer"),
             Parameter::member(
                 "stack",
-                Family::Stack,
-                "StackModel",
+                &stack::FAMILY,
                 "No_StackModel",
                 "Films on the upper face, which interfere",
             ),
             Parameter::member(
                 "sdf",
-                Family::Slope,
-                "Slope_Distribution_Function",
+                &slope::FAMILY,
                 "Unit_Slope_Distribution_Function",
                 "Slopes of the upper face; Unit_Slope_Distribution_Function: smooth",
             ),
             Parameter::member(
                 "shadow",
-                Family::Shadow,
-                "Shadow_Function",
+                &shadow::FAMILY,
                 "Sancer_Shadow_Function",
                 "Shadowing of the upper face; not asked for if it is smooth",
             ),
@@ -78,9 +77,9 @@ pub struct CoatingLayer {
 pub const ALL: &[&Spec<CoatingLayer>] = &[&SPEC];
 
 impl Member for CoatingLayer {
-    const FAMILY: Family = Family::Layer;
-
-    fn specs() -> Box<dyn Iterator<Item = &'static Spec<Self>>> {
-        Box::new(ALL.iter().copied())
-    }
+    const CLASSES: &'static [&'static [&'static Spec<Self>]] = &[ALL];
 }
+
+/// The family of the layers of a coating.
+pub static FAMILY: Family =
+    Family::new("Layer", "Layers of coatings", spec::classes::<CoatingLayer>);

@@ -30,23 +30,25 @@
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), sections 1.5 and 1.6; T. A. Germer
 //! and M. E. Nadal, Proc. SPIE 4447, 77 (2001).
 
-use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
-
-use num_complex::Complex64;
+use std::f64::consts::FRAC_1_PI;
 
 use super::{
     closing::EnergyCompensation,
+    coat::{Absorption, CoatLayer, LayersAbove, recycled},
     immersed::immersed,
-    interface::{Interface, InterfaceRay, RoughnessParameters, behind},
-    layer::CoatingLayer,
-    passage::{TransmissionFactors, depolarized},
+    interface::{Interface, InterfaceRay, behind},
+    layer::{CoatingLayer, FAMILY},
+    passage::depolarized,
 };
 use crate::{
     Basis, Direction, Incidence, Model, Mueller, ParameterError, ParameterNode,
-    models::{self, Brdf, COMMON, CommonParameters, diffuse},
-    reflectance, slope,
-    spec::{Class, Family, Laws, Parameter, Spec},
-    special::gauss,
+    models::{
+        COMMON, CommonParameters,
+        brdf::{self, Brdf},
+        diffuse, model,
+    },
+    reflectance,
+    spec::{Class, Laws, Parameter, Spec},
     stack::Stack,
 };
 
@@ -63,12 +65,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             &[
                 Parameter::member(
                     "model",
-                    Family::Brdf,
-                    "BRDF_Model",
+                    &brdf::FAMILY,
                     "Lambertian_BRDF_Model",
                     "The model below all layers",
                 ),
-                Parameter::integer("layers", "1", "How many layers there are, 0 to 4"),
+                Parameter::integer("layers", 1, "How many layers there are, 0 to 4"),
                 layer("layer1", "The uppermost layer"),
                 layer("layer2", "The second layer from above"),
                 layer("layer3", "The third layer from above"),
@@ -81,13 +82,10 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 };
 
 const fn layer(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter::member(name, Family::Layer, "Layer", "Coat_Layer", doc)
+    Parameter::member(name, &FAMILY, "Coat_Layer", doc)
 }
 
 const NAMES: [&str; 4] = ["layer1", "layer2", "layer3", "layer4"];
-
-/// Nodes of the integral over diffuse light, in each of its smooth pieces.
-const NODES: usize = 64;
 
 /// Layers over a model.
 struct LayeredModel {
@@ -95,15 +93,6 @@ struct LayeredModel {
     /// From above.
     coats: Vec<CoatLayer>,
     bottom: LowestSurface,
-}
-
-/// A layer with the interface on it.
-pub(super) struct CoatLayer {
-    pub(super) interface: Interface,
-    /// Index of the layer.
-    pub(super) n: f64,
-    /// 4πkt/λ.
-    depth: f64,
 }
 
 /// Body below all layers.
@@ -117,32 +106,6 @@ enum LowestSurface {
     },
     /// Any other model, immersed.
     Immersed(Model),
-}
-
-/// All layers down to some depth, for one ray.
-#[derive(Clone, Copy)]
-pub(super) struct LayersAbove {
-    /// Transmittance.
-    pub(super) passes: TransmissionFactors,
-    /// Internal reflectance for light from below, through the last layer and back.
-    returns: TransmissionFactors,
-    /// Light that smooth interfaces reflect outwards.
-    pub(super) mirrored: TransmissionFactors,
-}
-
-impl LayersAbove {
-    pub(super) const NOTHING: Self = Self {
-        passes: TransmissionFactors::FREE,
-        returns: TransmissionFactors::NONE,
-        mirrored: TransmissionFactors::NONE,
-    };
-}
-
-/// True if the absorption of layers is taken or left out.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Absorption {
-    Lossy,
-    Clear,
 }
 
 impl LayeredModel {
@@ -171,7 +134,7 @@ impl LayeredModel {
             None => {
                 let inside = immersed("model", &below, n, common.lambda)?;
                 LowestSurface::Immersed(
-                    models::build(&inside).map_err(|error| error.inside("model"))?,
+                    model::build(&inside).map_err(|error| error.inside("model"))?,
                 )
             }
         };
@@ -255,119 +218,6 @@ fn diffuse_body(
     }
     let reflectance = reflectance::read(below, "reflectance", common.lambda);
     reflectance.map(Some).map_err(inside)
-}
-
-impl CoatLayer {
-    fn new(layer: &CoatingLayer, above: f64, lambda: f64) -> Result<Self, ParameterError> {
-        let Complex64 { re: n, im: k } = layer.material.at(lambda);
-        if !(n >= 1.0 && n.is_finite() && k >= 0.0 && k.is_finite()) {
-            let problem = format!("{n} + {k}i: n has to be at least 1, k at least 0");
-            return Err(ParameterError::new("material", problem));
-        }
-        let node = &layer.node;
-        let films = node.member::<Stack>("stack")?.at(lambda);
-        let smooth = node.child("sdf").class.name == slope::unit::SPEC.class.name;
-        let roughness = (!smooth).then(|| RoughnessParameters {
-            slopes: node.child("sdf"),
-            shadow: node.child("shadow"),
-        });
-        let interface = Interface::new((above, n), &films, lambda, roughness)?;
-        Ok(Self { interface, n, depth: 4.0 * PI * k * layer.thickness / lambda })
-    }
-
-    /// Fraction of light that remains after one passage at an angle with this cosine.
-    pub(super) fn left(&self, cos: f64, media: Absorption) -> f64 {
-        if self.depth == 0.0 || media == Absorption::Clear {
-            1.0
-        } else {
-            (-self.depth / cos).exp()
-        }
-    }
-
-    /// The layers down to this one for the ray `ray` above it, whose angle in it has the cosine
-    /// `cos`; `sin` is that of the ray above.
-    pub(super) fn add(
-        &self,
-        above: LayersAbove,
-        ray: &InterfaceRay,
-        cos: f64,
-        media: Absorption,
-    ) -> LayersAbove {
-        let crossing = self.interface.crossing(ray).kept;
-        let absorbed = self.left(cos, media);
-        if self.interface.is_rough() {
-            // What it reflects goes into other directions.
-            let passes = above.passes.then(crossing).scaled(absorbed);
-            return LayersAbove {
-                passes,
-                returns: TransmissionFactors::NONE,
-                mirrored: above.mirrored,
-            };
-        }
-        let reflected = self.interface.reflects_above(ray.sin);
-        let trips = above.returns.then(reflected).repeated();
-        let passes = above.passes.then(crossing).then(trips).scaled(absorbed);
-        let out = above.passes.then(reflected).then(trips).then(above.passes);
-        let mirrored = above.mirrored.plus(out);
-        let through = crossing.then(crossing).then(above.returns).then(trips);
-        let returns = self.interface.reflects_below(ray.sin).plus(through);
-        LayersAbove { passes, returns: returns.scaled(absorbed * absorbed), mirrored }
-    }
-
-    /// The part of light with the tangential index `kappa` that all layers down to this one send
-    /// back, once it has crossed this one twice, of diffuse light from below.
-    fn recycled(
-        &self,
-        above: (f64, TransmissionFactors),
-        kappa: f64,
-        media: Absorption,
-    ) -> TransmissionFactors {
-        let (n_above, returns) = above;
-        let sin = kappa / n_above;
-        let cos = (1.0 - (kappa / self.n).powi(2)).max(0.0).sqrt();
-        let absorbed = self.left(cos, media).powi(2);
-        let reflected = self.interface.reflects_below(sin);
-        if sin >= 1.0 {
-            return reflected.scaled(absorbed);
-        }
-        let crossing = self.interface.mean_passage(sin);
-        let back = self.interface.mean_sent_back(sin);
-        let trips = if self.interface.is_rough() {
-            TransmissionFactors::FREE
-        } else {
-            returns.then(self.interface.reflects_above(sin)).repeated()
-        };
-        back.plus(crossing.then(crossing).then(returns).then(trips)).scaled(absorbed)
-    }
-}
-
-/// ρ: the fraction of diffuse light from below all coats that returns.
-fn recycled(coats: &[CoatLayer], lambda: f64, media: Absorption) -> f64 {
-    let Some(last) = coats.last() else { return 0.0 };
-    // The integrand has kinks where light begins to be reflected totally.
-    let mut ends = vec![0.0, 1.0, last.n];
-    ends.extend(coats.iter().map(|coat| coat.n).filter(|n| *n < last.n));
-    ends.sort_by(f64::total_cmp);
-    let thickest = coats.iter().map(|coat| coat.interface.optical_thickness()).fold(0.0, f64::max);
-    // Interference fringes are followed with ten nodes for each half wave.
-    let nodes = NODES + (20.0 * thickest / lambda).min(4000.0) as usize;
-    let mut sum = 0.0;
-    for pair in ends.windows(2) {
-        let (from, span) = (pair[0] * pair[0], pair[1] * pair[1] - pair[0] * pair[0]);
-        if span <= 0.0 {
-            continue;
-        }
-        sum += span
-            * gauss::integrate(nodes, 0.0, FRAC_PI_2, |t| {
-                let kappa = (from + span * t.sin().powi(2)).sqrt();
-                let mut above = (1.0, TransmissionFactors::NONE);
-                for coat in coats {
-                    above = (coat.n, coat.recycled(above, kappa, media));
-                }
-                above.1.row()[0] * (2.0 * t).sin()
-            });
-    }
-    sum / (last.n * last.n)
 }
 
 impl Brdf for LayeredModel {

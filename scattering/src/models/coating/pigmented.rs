@@ -67,8 +67,9 @@ use crate::{
         Brdf, COMMON, CommonParameters,
         facet::{FACET, subsurface::OVERCOAT},
     },
-    slope::SlopeDistribution,
-    spec::{Class, Family, Laws, Parameter, Spec},
+    reflectance, scatterer, shadow,
+    slope::{self, SlopeDistribution},
+    spec::{Class, Laws, Parameter, Spec},
     special::gauss,
     stack::Stack,
 };
@@ -90,65 +91,60 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 const OWN: &[Parameter] = &[
     Parameter::member(
         "surface_sdf",
-        Family::Slope,
-        "Slope_Distribution_Function",
+        &slope::FAMILY,
         "Anisotropic_Gaussian_Slope_Distribution_Function",
         "Density of the slopes of the coat's surface",
     ),
     Parameter::member(
         "surface_shadow",
-        Family::Shadow,
-        "Shadow_Function",
+        &shadow::FAMILY,
         "Sancer_Shadow_Function",
         "Shadowing of the coat's surface",
     ),
-    Parameter::number("flake_density", "0.0001", "1/um^3", "Flakes per volume"),
-    Parameter::number("flake_area", "300", "um^2", "Area of a flake"),
-    Parameter::number("thickness", "30", "um", "Thickness of the coat"),
+    Parameter::number("flake_density", 0.0001, "1/um^3", "Flakes per volume"),
+    Parameter::number("flake_area", 300.0, "um^2", "Area of a flake"),
+    Parameter::number("thickness", 30.0, "um", "Thickness of the coat"),
     Parameter::number(
         "correlation",
-        "1",
+        1.0,
         "1",
         "Probability that light leaves by the gap by which it entered, 0 to 1",
     ),
     Parameter::member(
         "particle",
-        Family::Scatterer,
-        "Free_Space_Scatterer",
+        &scatterer::FAMILY,
         "MieScatterer",
         "Particle of the body; its lambda, medium and radius are set by the coating",
     ),
-    Parameter::number("particle_radius", "0.1", "um", "Radius of the particles"),
-    Parameter::number("particle_density", "0", "1/um^3", "Particles per volume"),
+    Parameter::number("particle_radius", 0.1, "um", "Radius of the particles"),
+    Parameter::number("particle_density", 0.0, "1/um^3", "Particles per volume"),
     Parameter::member(
         "backing",
-        Family::Reflectance,
-        "Reflectance",
+        &reflectance::FAMILY,
         "Table_Reflectance",
         "Reflectance of what lies below the coat, for diffuse light inside it",
     ),
     Parameter::integer(
         "printed",
-        "0",
+        0,
         "0 consistent; 1 the body as in the paper's equation 9; 2 the flakes' weight of equation 11 too",
     ),
     Parameter::member(
         "flake_shadow",
-        Family::Shadow,
-        "Shadow_Function",
+        &shadow::FAMILY,
         "Sancer_Shadow_Function",
         "Shadowing of flakes by each other, at the angles inside the coat",
     ),
     Parameter::number(
         "flake_spread",
-        "0",
+        0.0,
         "1",
         "Relative standard deviation of the thickness of the flakes' films, below 1/3",
     ),
-    Parameter::integer("albedo", "0", "Albedo of the body: 0 adding and doubling, 1 Kubelka-Munk"),
-    Parameter::integer("exchange", "0", "Light between flakes and surface: 0 left out, 1 taken in"),
-    Parameter::integer("printed_surface", "0", "1: the surface as in the paper's equations 4 to 6"),
-    Parameter::integer("printed_flakes", "0", "1: the flakes as in the paper's equation 8"),
+    Parameter::integer("albedo", 0, "Albedo of the body: 0 adding and doubling, 1 Kubelka-Munk"),
+    Parameter::integer("exchange", 0, "Light between flakes and surface: 0 left out, 1 taken in"),
+    Parameter::integer("printed_surface", 0, "1: the surface as in the paper's equations 4 to 6"),
+    Parameter::integer("printed_flakes", 0, "1: the flakes as in the paper's equation 8"),
 ];
 
 /// Spheres that fill more of the volume do not scatter independently: they are closer than about
@@ -397,7 +393,7 @@ impl PigmentedCoating {
 
     fn note_limits(&self, node: &ParameterNode) -> Result<(), ParameterError> {
         if body::filled(node) > INDEPENDENT {
-            node.passes(ModelLimit::ParticlesTooDense);
+            node.note_limit(ModelLimit::ParticlesTooDense);
         }
         let side = node.number("flake_area").sqrt();
         let slopes = node.member::<dyn SlopeDistribution>("sdf")?;
@@ -406,10 +402,10 @@ impl PigmentedCoating {
         let thickness: f64 = films.iter().map(|(_, t)| t).sum();
         let room = node.number("flake_density") * side * side * (thickness + tilt * side);
         if room > 1.0 {
-            node.passes(ModelLimit::FlakesTooDense);
+            node.note_limit(ModelLimit::FlakesTooDense);
         }
         if 1.0 - self.cover.gaps() - self.cover.covered() > LOST {
-            node.passes(ModelLimit::LostBetweenFlakes);
+            node.note_limit(ModelLimit::LostBetweenFlakes);
         }
         Ok(())
     }

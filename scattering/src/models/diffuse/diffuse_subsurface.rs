@@ -17,10 +17,13 @@
 
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
-use super::{INTERFACE, interface, lambertian::BODY};
+use super::lambertian::BODY;
 use crate::{
     Defect, Direction, Incidence, Mueller, ParameterError, ParameterNode,
-    models::{Brdf, COMMON, CommonParameters},
+    models::{
+        Brdf, COMMON, CommonParameters,
+        smooth_interface::{INTERFACE, interface},
+    },
     optics::film::Films,
     reflectance,
     spec::{Class, Laws, Spec},
@@ -159,7 +162,7 @@ mod tests {
     use num_complex::Complex64;
 
     use super::*;
-    use crate::{Mode, ParameterValue, optics::RefractiveIndex, spec};
+    use crate::{Mode, ParameterValue, optics::RefractiveIndex};
 
     fn bare(n: f64) -> Films {
         Films::new(&[], Complex64::ONE, n.into(), 0.5)
@@ -167,11 +170,13 @@ mod tests {
 
     fn filmed(mode: Mode, n: f64, film: (f64, f64, f64)) -> DiffuseSubsurface {
         let index = |n, k| ParameterValue::Index(RefractiveIndex::constant(n, k));
-        let stack =
-            ParameterNode::with_defaults(spec::find_class("SingleFilm_StackModel").unwrap(), mode)
-                .with("material", index(film.0, film.1))
-                .and_then(|node| node.with("thickness", ParameterValue::Number(film.2)))
-                .unwrap();
+        let stack = ParameterNode::with_defaults(
+            crate::registry::find_class("SingleFilm_StackModel").unwrap(),
+            mode,
+        )
+        .with("material", index(film.0, film.1))
+        .and_then(|node| node.with("thickness", ParameterValue::Number(film.2)))
+        .unwrap();
         let node = ParameterNode::with_defaults(&SPEC.class, mode)
             .with("substrate", index(n, 0.0))
             .and_then(|node| node.with("stack", ParameterValue::Member(Arc::new(stack))))

@@ -18,14 +18,16 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::{INTERFACE, interface};
 use crate::{
     Defect, Direction, Incidence, Mueller, ParameterError, ParameterNode,
-    models::{Brdf, COMMON, CommonParameters},
+    models::{
+        Brdf, COMMON, CommonParameters,
+        smooth_interface::{INTERFACE, interface},
+    },
     optics::film::Films,
     polarization::{TransverseFrame, perp},
-    polarized_phase::PolarizedPhase,
-    spec::{Class, Family, Laws, Parameter, Spec},
+    polarized_phase::{self, PolarizedPhase},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// Name, parameters and constructor of a [`FirstDiffuse`] body.
@@ -43,12 +45,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("depoll", "0", "1", "Loss of linear polarization on the way, 0 to 1"),
-    Parameter::number("depolc", "0", "1", "Loss of circular polarization on the way, 0 to 1"),
+    Parameter::number("depoll", 0.0, "1", "Loss of linear polarization on the way, 0 to 1"),
+    Parameter::number("depolc", 0.0, "1", "Loss of circular polarization on the way, 0 to 1"),
     Parameter::member(
         "phase_function",
-        Family::PolarizedPhase,
-        "Polarized_Phase_Function",
+        &polarized_phase::FAMILY,
         "Unpolarized_Phase_Function",
         "Phase matrix with the coefficients of scattering and absorption",
     ),
@@ -196,12 +197,11 @@ mod tests {
 
     use super::*;
     use crate::{
-        Basis, Geometry, Mode, ParameterValue, models, optics::RefractiveIndex, spec,
-        special::gauss,
+        Basis, Geometry, Mode, ParameterValue, models, optics::RefractiveIndex, special::gauss,
     };
 
     fn isotropic(n: f64) -> models::Model {
-        let class = |name| spec::find_class(name).unwrap();
+        let class = |name| crate::registry::find_class(name).unwrap();
         let scalar = ParameterNode::with_defaults(class("Isotropic_Phase_Function"), Mode::Sound);
         let phase = ParameterNode::with_defaults(class("Unpolarized_Phase_Function"), Mode::Sound)
             .with("phase_function", ParameterValue::Member(Arc::new(scalar)))

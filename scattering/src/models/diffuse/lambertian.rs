@@ -14,14 +14,13 @@ use crate::{
     Direction, Incidence, Mueller,
     models::{Brdf, COMMON, CommonParameters},
     reflectance,
-    spec::{Class, Family, Laws, Parameter, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// The parameter of a diffuse body: its reflectance.
 pub const BODY: &[Parameter] = &[Parameter::member(
     "reflectance",
-    Family::Reflectance,
-    "Reflectance",
+    &reflectance::FAMILY,
     "Table_Reflectance",
     "Reflectance of the body as a function of wavelength",
 )];

@@ -217,7 +217,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        Basis, Geometry, Mode, Model, ParameterValue, models, optics::RefractiveIndex, spec,
+        Basis, Geometry, Mode, Model, ParameterValue, models, optics::RefractiveIndex,
         special::gauss,
     };
 
@@ -227,7 +227,7 @@ mod tests {
         sdf: &str,
         params: &[(&str, f64)],
     ) -> ParameterNode {
-        let slopes = ParameterNode::with_defaults(spec::find_class(sdf).unwrap(), mode);
+        let slopes = ParameterNode::with_defaults(crate::registry::find_class(sdf).unwrap(), mode);
         let slopes = params
             .iter()
             .fold(slopes, |node, (name, x)| node.with(name, ParameterValue::Number(*x)).unwrap());

@@ -6,20 +6,22 @@
 //!
 //! K. E. Torrance and E. M. Sparrow, J. Opt. Soc. Am. 57, 1105 (1967).
 
-use super::{FACET, bare::Facet, read_shadow};
+use super::{
+    bare::Facet,
+    parameters::{FACET, read_shadow},
+};
 use crate::{
     Direction, Incidence, Jones, Mueller,
     models::{BATCH, Brdf, COMMON, CommonParameters},
     polarization::SignedWeights,
-    shadow::Shadow,
-    spec::{Class, Family, Laws, Parameter, Spec},
+    shadow::{self, Shadow},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// The parameter of shadowed facets.
 pub const SHADOW: &[Parameter] = &[Parameter::member(
     "shadow",
-    Family::Shadow,
-    "Shadow_Function",
+    &shadow::FAMILY,
     "Torrance_Sparrow_Shadow_Function",
     "Shadowing of facets by each other",
 )];

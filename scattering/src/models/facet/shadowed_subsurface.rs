@@ -8,14 +8,14 @@
 //! Antennas Propag. AP-17, 577 (1969), for shadowing by known slopes.
 
 use super::{
-    FACET, read_shadow,
+    parameters::{FACET, read_shadow},
     subsurface::{OVERCOAT, SubsurfaceFacet},
 };
 use crate::{
     Direction, Incidence, Jones, Mueller,
     models::{Brdf, COMMON, CommonParameters},
-    shadow::Shadow,
-    spec::{Class, Family, Laws, Parameter, Spec},
+    shadow::{self, Shadow},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// Name, parameters and constructor of the class.
@@ -32,8 +32,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             OVERCOAT,
             &[Parameter::member(
                 "shadow",
-                Family::Shadow,
-                "Shadow_Function",
+                &shadow::FAMILY,
                 "Unit_Shadow_Function",
                 "Shadowing of flakes by each other, at the angles inside the coat",
             )],

@@ -24,17 +24,16 @@ use crate::{
     models::{Brdf, COMMON, CommonParameters},
     optics::film::{Films, SpAmplitudes},
     slope::SlopeDistribution,
-    spec::{Class, Family, Laws, Parameter, Spec},
-    stack::Stack,
+    spec::{Class, Laws, Parameter, Spec},
+    stack::{self, Stack},
 };
 
 /// The parameters of a clear coat.
 pub const OVERCOAT: &[Parameter] = &[
-    Parameter::index("overcoat", "(1.59,0)", "Index of the clear coat; its k is taken as 0"),
+    Parameter::index("overcoat", (1.59, 0.0), "Index of the clear coat; its k is taken as 0"),
     Parameter::member(
         "overcoat_films",
-        Family::Stack,
-        "StackModel",
+        &stack::FAMILY,
         "No_StackModel",
         "Films on the air side of the coat",
     ),

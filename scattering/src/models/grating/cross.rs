@@ -13,23 +13,17 @@ use std::f64::consts::TAU;
 use super::orders::{OrderConeModel, bounded, half_angle, media, order};
 use crate::{
     Brdf,
-    cross_grating::{CrossGrating, CrossPattern, CrossProfile, HarmonicTruncation},
+    cross_grating::{self, CrossGrating, CrossPattern, CrossProfile, HarmonicTruncation},
     models::{COMMON, CommonParameters},
     rcw::PeriodicStructure,
-    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("alpha", "0.01", "rad", "Half angle of the cone of every order"),
-    Parameter::integer("order1", "10", "Highest harmonic along axis 1"),
-    Parameter::integer("order2", "10", "Highest harmonic along axis 2"),
-    Parameter::member(
-        "grating",
-        Family::CrossGrating,
-        "CrossGrating",
-        "OneD_CrossGrating",
-        "The grating",
-    ),
+    Parameter::number("alpha", 0.01, "rad", "Half angle of the cone of every order"),
+    Parameter::integer("order1", 10, "Highest harmonic along axis 1"),
+    Parameter::integer("order2", 10, "Highest harmonic along axis 2"),
+    Parameter::member("grating", &cross_grating::FAMILY, "OneD_CrossGrating", "The grating"),
 ];
 
 /// Name, parameters and constructor of the model.

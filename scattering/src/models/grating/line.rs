@@ -13,16 +13,16 @@ use std::f64::consts::TAU;
 use super::orders::{OrderConeModel, bounded, half_angle, media, order};
 use crate::{
     Brdf,
-    grating::Grating,
+    grating::{self, Grating},
     models::{COMMON, CommonParameters},
     rcw::PeriodicStructure,
-    spec::{Class, Family, Laws, Parameter, ParameterError, ParameterNode, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("alpha", "0.0175", "rad", "Half angle of the cone of every order"),
-    Parameter::integer("order", "25", "Highest harmonic that is kept"),
-    Parameter::member("grating", Family::Grating, "Grating", "Single_Line_Grating", "The grating"),
+    Parameter::number("alpha", 0.0175, "rad", "Half angle of the cone of every order"),
+    Parameter::integer("order", 25, "Highest harmonic that is kept"),
+    Parameter::member("grating", &grating::FAMILY, "Single_Line_Grating", "The grating"),
 ];
 
 /// Name, parameters and constructor of the model.

@@ -33,8 +33,8 @@ pub(super) struct DiskPoint {
 
 /// The size of the cone and the order of the rule.
 pub(super) const CONE: &[Parameter] = &[
-    Parameter::number("alpha", "0", "deg", "Half-angle of the cone"),
-    Parameter::integer("integralmode", "3", "Order of the rule of integration over the cone"),
+    Parameter::number("alpha", 0.0, "deg", "Half-angle of the cone"),
+    Parameter::integer("integralmode", 3, "Order of the rule of integration over the cone"),
 ];
 
 /// Orders above this one cost more than they can gain.

@@ -13,8 +13,8 @@
 use super::disk::{self, CONE, ConeAxis, DiskPoint};
 use crate::{
     Basis, Direction, Incidence, Model, Mueller,
-    models::{self, Brdf, COMMON, CommonParameters, LobeSupport},
-    spec::{Class, Family, Laws, Parameter, Spec},
+    models::{Brdf, COMMON, CommonParameters, FAMILY, LobeSupport, nested},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// Name, parameters and constructor of a [`FiniteAperture`].
@@ -30,7 +30,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = CommonParameters::read(node)?;
-        let model = Model::new(models::nested(node, "model", &common)?, node.mode);
+        let model = Model::new(nested(node, "model", &common)?, node.mode);
         Ok(Box::new(FiniteAperture { common, model, points: disk::points(node)? }))
     },
 };
@@ -38,8 +38,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 /// The model that an instrument looks at.
 pub(super) const INNER: &[Parameter] = &[Parameter::member(
     "model",
-    Family::Brdf,
-    "BRDF_Model",
+    &FAMILY,
     "Microroughness_BRDF_Model",
     "The model that the instrument looks at",
 )];

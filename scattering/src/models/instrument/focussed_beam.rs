@@ -23,7 +23,7 @@ use super::{
 };
 use crate::{
     Basis, Defect, Direction, Incidence, Model, Mueller, ParameterError,
-    models::{self, Brdf, COMMON, CommonParameters, LobeSupport},
+    models::{Brdf, COMMON, CommonParameters, LobeSupport, nested},
     spec::{Class, Laws, Parameter, Spec},
 };
 
@@ -40,7 +40,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = CommonParameters::read(node)?;
-        let model = Model::new(models::nested(node, "model", &common)?, node.mode);
+        let model = Model::new(nested(node, "model", &common)?, node.mode);
         let focal_point = node.number("focal_point");
         if !focal_point.is_finite() {
             return Err(ParameterError::new("focal_point", format!("{focal_point} is not finite")));
@@ -53,7 +53,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 
 const OWN: &[Parameter] = &[Parameter::number(
     "focal_point",
-    "1",
+    1.0,
     "1",
     "Where the beam is focussed: 0 on the sample, 1 on the detector",
 )];

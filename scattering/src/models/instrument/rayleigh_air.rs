@@ -24,8 +24,8 @@ use crate::{
     Direction, Incidence, Jones, Mueller, ParameterError,
     models::{Brdf, COMMON, CommonParameters},
     optics::film::{Films, SpAmplitudes},
-    spec::{Class, Family, Laws, Parameter, Spec},
-    stack::Stack,
+    spec::{Class, Laws, Parameter, Spec},
+    stack::{self, Stack},
 };
 
 /// Name, parameters and constructor of a [`RayleighAir`].
@@ -39,10 +39,10 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         params: &[
             COMMON,
             &[
-                Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
-                Parameter::number("field_of_view", "1000", "um", "Width of the detector's view"),
-                Parameter::index("air", "1.0002748", "Index of the air"),
-                Parameter::number("number_density", "2.51E7", "1/um^3", "Molecules per volume"),
+                Parameter::member("stack", &stack::FAMILY, "No_StackModel", "Films"),
+                Parameter::number("field_of_view", 1000.0, "um", "Width of the detector's view"),
+                Parameter::index("air", (1.0002748, 0.0), "Index of the air"),
+                Parameter::number("number_density", 2.51e7, "1/um^3", "Molecules per volume"),
             ],
         ],
         laws: Laws { reciprocal: false, ..Laws::NOT_PASSIVE },

@@ -33,7 +33,7 @@ use std::{f64::consts::PI, slice};
 use crate::{
     Basis, Defect, Direction, Incidence, Mueller, ParameterError,
     models::{Brdf, COMMON, CommonParameters},
-    spec::{Class, Laws, Parameter, ParameterKind, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 mod harmonics;
@@ -47,20 +47,17 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     class: Class {
         name: "ZernikeExpansion_BRDF_Model",
         parent: "BRDF_Model",
-        summary: "Tabulated Mueller BRDF in products of ZernikeExpansion functions",
+        summary: "Tabulated Mueller BRDF in products of Zernike functions",
         equation: "F = scale B m, B and m sums of c lambda^p Z(source) Z(viewer)",
         source: "koenderink-1998 germer-2017",
         params: &[
             COMMON,
             &[
-                Parameter {
-                    name: "coefficientfile",
-                    kind: ParameterKind::File,
-                    default: "",
-                    unit: "",
-                    doc: "Lines `i j n m k l p c`, separated by blanks or commas",
-                },
-                Parameter::table("scale", "1", "1", "Factor as a function of wavelength (um)"),
+                Parameter::file(
+                    "coefficientfile",
+                    "Lines `i j n m k l p c`, separated by blanks or commas",
+                ),
+                Parameter::table("scale", 1.0, "1", "Factor as a function of wavelength (um)"),
             ],
         ],
         laws: Laws::NONE,

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     Defect, ParameterError, ParameterNode,
-    models::{Brdf, COMMON, diffuse::INTERFACE},
+    models::{Brdf, COMMON, smooth_interface::INTERFACE},
     shape::Shape,
     spec::{Class, Laws, Parameter, Spec},
     tmatrix::{self, BODY, MULTIPOLES},
@@ -31,7 +31,7 @@ const PARAMS: &[&[Parameter]] = &[
     LOCAL,
     &BODY,
     INTERFACE,
-    &[Parameter::number("delta", "0", "um", "Gap between the particle and the face")],
+    &[Parameter::number("delta", 0.0, "um", "Gap between the particle and the face")],
     &MULTIPOLES,
     &INTERACTION,
 ];

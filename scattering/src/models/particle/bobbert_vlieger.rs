@@ -15,10 +15,10 @@ use super::{
 };
 use crate::{
     ParameterError, ParameterNode,
-    models::{Brdf, COMMON, diffuse::INTERFACE},
+    models::{Brdf, COMMON, smooth_interface::INTERFACE},
     scatterer::{layered, positive, series},
-    spec::{Class, Family, Laws, Parameter, Spec},
-    stack::Stack,
+    spec::{Class, Laws, Parameter, Spec},
+    stack::{self, Stack},
     tmatrix::{TMatrix, l_max},
 };
 
@@ -32,22 +32,21 @@ const PARAMS: &[&[Parameter]] = &[
     COMMON,
     LOCAL,
     &[
-        Parameter::index("sphere", "(1.59,0)", "Index of the sphere"),
-        Parameter::number("radius", "0.05", "um", "Outer radius of the sphere"),
+        Parameter::index("sphere", (1.59, 0.0), "Index of the sphere"),
+        Parameter::number("radius", 0.05, "um", "Outer radius of the sphere"),
         Parameter::member(
             "spherecoat",
-            Family::Stack,
-            "StackModel",
+            &stack::FAMILY,
             "No_StackModel",
             "Coats within the radius, the innermost first",
         ),
     ],
     INTERFACE,
     &[
-        Parameter::number("delta", "0", "um", "Gap between the sphere and the face"),
+        Parameter::number("delta", 0.0, "um", "Gap between the sphere and the face"),
         Parameter::integer(
             "lmax",
-            "0",
+            0,
             "Largest l: 0 as the size needs, -n that and n more, n just n",
         ),
     ],

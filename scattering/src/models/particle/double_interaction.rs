@@ -34,11 +34,11 @@ use crate::{
     Side,
     models::{
         Brdf, COMMON, CommonParameters,
-        diffuse::{INTERFACE, interface},
+        smooth_interface::{INTERFACE, interface},
     },
     optics::{RefractiveIndex, film::Films},
-    scatterer::Scatterer,
-    spec::{self, Class, Family, Laws, Parameter, Spec},
+    scatterer::{self, Scatterer},
+    spec::{self, Class, Laws, Parameter, Spec},
 };
 
 /// Name, parameters and constructor of a [`DoubleInteraction`].
@@ -56,14 +56,13 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             &[
                 Parameter::number(
                     "distance",
-                    "0.05",
+                    0.05,
                     "um",
                     "Distance of the centre from the surface",
                 ),
                 Parameter::member(
                     "scatterer",
-                    Family::Scatterer,
-                    "Free_Space_Scatterer",
+                    &scatterer::FAMILY,
                     "MieScatterer",
                     "The particle; its lambda and medium are set to the model's and to vacuum",
                 ),

@@ -23,8 +23,8 @@ use crate::{
 
 /// The parameters that turn a particle.
 pub(super) const ORIENTATION: [Parameter; 2] = [
-    Parameter::number("alpha", "0", "rad", "First Euler angle of the particle"),
-    Parameter::number("beta", "0", "rad", "Second Euler angle of the particle"),
+    Parameter::number("alpha", 0.0, "rad", "First Euler angle of the particle"),
+    Parameter::number("beta", 0.0, "rad", "Second Euler angle of the particle"),
 ];
 
 /// A beam with its s and p vectors.

@@ -21,14 +21,14 @@ use super::{
 };
 use crate::{
     Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode,
-    models::{Brdf, COMMON, CommonParameters, diffuse::INTERFACE},
+    models::{Brdf, COMMON, CommonParameters, smooth_interface::INTERFACE},
     scatterer::{
         HostMedium,
         mie::Mie,
         series::{AngularFunctions, MieSeries, terms},
     },
     size::{self, SurfaceSize},
-    spec::{Class, Family, Laws, Parameter, Spec},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// Name, parameters and constructor of [`PolydisperseSphere`]s.
@@ -43,24 +43,23 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             &[Parameter::member(
                 "distribution",
-                Family::SurfaceSize,
-                "SurfaceParticleSizeDistribution",
+                &size::SURFACE_FAMILY,
                 "Regular_SurfaceParticleSizeDistribution",
                 "Number of spheres per area and diameter",
             )],
             INTERFACE,
             &[
-                Parameter::index("particle", "(1.5,0.0)", "Index of the spheres"),
-                Parameter::number("Dstart", "1", "um", "Smallest diameter"),
-                Parameter::number("Dend", "1000", "um", "Largest diameter"),
-                Parameter::number("Dstep", "0.01", "1", "Step of the diameter over the diameter"),
+                Parameter::index("particle", (1.5, 0.0), "Index of the spheres"),
+                Parameter::number("Dstart", 1.0, "um", "Smallest diameter"),
+                Parameter::number("Dend", 1000.0, "um", "Largest diameter"),
+                Parameter::number("Dstep", 0.01, "1", "Step of the diameter over the diameter"),
                 Parameter::number(
                     "fractional_coverage",
-                    "0",
+                    0.0,
                     "1",
                     "Covered fraction of the area, or 0",
                 ),
-                Parameter::number("antirainbow", "0", "1", "Least absorption over a diameter"),
+                Parameter::number("antirainbow", 0.0, "1", "Least absorption over a diameter"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,

@@ -19,8 +19,8 @@ use super::{
 use crate::{
     Defect, ParameterError, Side,
     models::{Brdf, COMMON, CommonParameters},
-    spec::{Class, Family, Laws, Parameter, Spec},
-    stack::Stack,
+    spec::{Class, Laws, Parameter, Spec},
+    stack::{self, Stack},
 };
 
 /// Name, parameters and constructor of the class.
@@ -35,16 +35,16 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             LOCAL,
             &[
-                Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
-                Parameter::number("radius", "0.001", "um", "Radius of the sphere"),
+                Parameter::member("stack", &stack::FAMILY, "No_StackModel", "Films"),
+                Parameter::number("radius", 0.001, "um", "Radius of the sphere"),
                 Parameter::number(
                     "distance",
-                    "0",
+                    0.0,
                     "um",
                     "Depth of the centre below the face of the substrate; with a negative one the wave of the \
                      substrate is continued upwards",
                 ),
-                Parameter::index("defect", "(1,0)", "Index of the sphere"),
+                Parameter::index("defect", (1.0, 0.0), "Index of the sphere"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,

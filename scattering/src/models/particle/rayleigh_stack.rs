@@ -19,8 +19,8 @@ use super::{
 };
 use crate::{
     models::{Brdf, COMMON, CommonParameters},
-    spec::{Class, Family, Laws, Parameter, Spec},
-    stack::Stack,
+    spec::{Class, Laws, Parameter, Spec},
+    stack::{self, Stack},
 };
 
 /// Name, parameters and constructor of the class.
@@ -35,10 +35,10 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             LOCAL,
             &[
-                Parameter::member("stack", Family::Stack, "StackModel", "No_StackModel", "Films"),
-                Parameter::number("depth", "0", "um", "Depth of the centre below the outer face"),
-                Parameter::number("radius", "0.01", "um", "Radius of the sphere"),
-                Parameter::index("sphere", "(1,0)", "Index of the sphere"),
+                Parameter::member("stack", &stack::FAMILY, "No_StackModel", "Films"),
+                Parameter::number("depth", 0.0, "um", "Depth of the centre below the outer face"),
+                Parameter::number("radius", 0.01, "um", "Radius of the sphere"),
+                Parameter::index("sphere", (1.0, 0.0), "Index of the sphere"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,

@@ -32,11 +32,11 @@ use crate::{
     Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode, Side,
     models::{
         Brdf, COMMON, CommonParameters,
-        diffuse::{INTERFACE, interface},
+        smooth_interface::{INTERFACE, interface},
     },
     optics::film::{Films, SpAmplitudes},
-    scatterer::Scatterer,
-    spec::{Class, Family, Laws, Parameter, Spec},
+    scatterer::{self, Scatterer},
+    spec::{Class, Laws, Parameter, Spec},
 };
 
 /// Name, parameters and constructor of a [`SubsurfaceParticle`].
@@ -52,11 +52,10 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             LOCAL,
             INTERFACE,
             &[
-                Parameter::number("depth", "0", "um", "Depth of the particle below the face"),
+                Parameter::number("depth", 0.0, "um", "Depth of the particle below the face"),
                 Parameter::member(
                     "scatterer",
-                    Family::Scatterer,
-                    "Free_Space_Scatterer",
+                    &scatterer::FAMILY,
                     "MieScatterer",
                     "The particle, with the model's lambda in the substrate as its medium",
                 ),

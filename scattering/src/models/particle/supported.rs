@@ -44,17 +44,17 @@ const NORMAL: f64 = 1e-6;
 pub(super) const INTERACTION: [Parameter; 3] = [
     Parameter::integer(
         "order",
-        "-1",
+        -1,
         "Interaction with the face: -1 exact, 0 none, n the first n terms of a series",
     ),
     Parameter::integer(
         "Norm_Inc_Approx",
-        "0",
+        0,
         "Reflection of the particle's own light: 0 exact, 1 as at normal incidence",
     ),
     Parameter::integer(
         "improve",
-        "3",
+        3,
         "Steps of iterative improvement in NIST's library; no effect, the solution is exact",
     ),
 ];

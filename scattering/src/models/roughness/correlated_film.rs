@@ -26,8 +26,8 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             ROUGHNESS,
             &[
-                Parameter::number("thickness", "0.05", "um", "Thickness of the film"),
-                Parameter::index("film", "(1.46,0)", "Index of the film"),
+                Parameter::number("thickness", 0.05, "um", "Thickness of the film"),
+                Parameter::index("film", (1.46, 0.0), "Index of the film"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,

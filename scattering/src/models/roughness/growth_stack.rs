@@ -26,8 +26,8 @@ use super::{ROUGHNESS, RoughSurface, STACK, interfaces::StackContrast};
 use crate::{
     Direction, Incidence, Jones, Mueller, ParameterError,
     models::{Brdf, COMMON, CommonParameters},
-    psd::Psd,
-    spec::{Class, Family, Laws, Parameter, Spec},
+    psd::{self, Psd},
+    spec::{Class, Laws, Parameter, Spec},
     stack::Stack,
 };
 
@@ -63,12 +63,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 };
 
 const OWN: &[Parameter] = &[
-    Parameter::number("relaxation", "0", "um", "Relaxation length of the growth"),
-    Parameter::number("exponent", "2", "1", "Exponent of the relaxation"),
+    Parameter::number("relaxation", 0.0, "um", "Relaxation length of the growth"),
+    Parameter::number("exponent", 2.0, "1", "Exponent of the relaxation"),
     Parameter::member(
         "intrinsic",
-        Family::Psd,
-        "PSD_Function",
+        &psd::FAMILY,
         "ABC_PSD_Function",
         "Spectrum that an infinitely thick film has of its own",
     ),

@@ -41,17 +41,14 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
 };
 
 const OWN: &[Parameter] =
-    &[Parameter::integer("this_layer", "0", "The rough interface; 0 is the face of the substrate")];
+    &[Parameter::integer("this_layer", 0, "The rough interface; 0 is the face of the substrate")];
 
 #[cfg(test)]
 mod tests {
-    use crate::{
-        Basis, Geometry, Mode, ParameterNode, models,
-        spec::{self, ParameterValue},
-    };
+    use crate::{Basis, Geometry, Mode, ParameterNode, models, spec::ParameterValue};
 
     fn node(name: &str) -> ParameterNode {
-        ParameterNode::with_defaults(spec::find_class(name).unwrap(), Mode::Sound)
+        ParameterNode::with_defaults(crate::registry::find_class(name).unwrap(), Mode::Sound)
     }
 
     #[test]

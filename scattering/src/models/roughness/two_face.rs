@@ -28,9 +28,9 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             ROUGHNESS,
             &[
-                Parameter::index("film", "(1.46,0)", "Index of the film"),
-                Parameter::number("thickness", "0.05", "um", "Thickness of the film"),
-                Parameter::integer("face", "1", "The rough face: 1 buried, 2 exposed"),
+                Parameter::index("film", (1.46, 0.0), "Index of the film"),
+                Parameter::number("thickness", 0.05, "um", "Thickness of the film"),
+                Parameter::integer("face", 1, "The rough face: 1 buried, 2 exposed"),
             ],
         ],
         laws: Laws::NOT_PASSIVE,

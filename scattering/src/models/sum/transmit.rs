@@ -20,10 +20,10 @@ use num_complex::Complex64;
 
 use crate::{
     Basis, Direction, Incidence, Model, Mueller,
-    models::{self, Brdf, COMMON, CommonParameters, LobeSupport},
+    models::{Brdf, COMMON, CommonParameters, FAMILY, LobeSupport, nested},
     optics::film::Films,
-    spec::{Class, Family, Laws, Parameter, Spec},
-    stack::Stack,
+    spec::{Class, Laws, Parameter, Spec},
+    stack::{self, Stack},
 };
 
 /// Name, parameters and constructor of a [`Transmit`].
@@ -39,15 +39,13 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             &[
                 Parameter::member(
                     "model",
-                    Family::Brdf,
-                    "BRDF_Model",
+                    &FAMILY,
                     "Microroughness_BRDF_Model",
                     "The model behind the face",
                 ),
                 Parameter::member(
                     "films",
-                    Family::Stack,
-                    "StackModel",
+                    &stack::FAMILY,
                     "No_StackModel",
                     "Films on the second face",
                 ),
@@ -57,7 +55,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = CommonParameters::read(node)?;
-        let model = Model::new(models::nested(node, "model", &common)?, node.mode);
+        let model = Model::new(nested(node, "model", &common)?, node.mode);
         let films = node.member::<Stack>("films")?.at(common.lambda);
         let films = Films::new(&films, Complex64::ONE, common.substrate, common.lambda);
         Ok(Box::new(Transmit { common, model, films, index: common.substrate.re }))

@@ -27,7 +27,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             COMMON,
             &source("factor1", "source1", "Weight of the first source", "First source"),
             &source("factor2", "source2", "Weight of the second source", "Second source"),
-            &[Parameter::number("correlation", "0", "1", "Degree of coherence, from -1 to 1")],
+            &[Parameter::number("correlation", 0.0, "1", "Degree of coherence, from -1 to 1")],
         ],
         laws: Laws::NOT_PASSIVE,
     },
@@ -78,14 +78,14 @@ impl Brdf for CoherentSum {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Basis, Geometry, Mode, ParameterValue, models, optics::RefractiveIndex, spec};
+    use crate::{Basis, Geometry, Mode, ParameterValue, models, optics::RefractiveIndex};
 
     fn with(node: ParameterNode, name: &str, value: ParameterValue) -> ParameterNode {
         node.with(name, value).unwrap()
     }
 
     fn defaults(name: &str, mode: Mode) -> ParameterNode {
-        ParameterNode::with_defaults(spec::find_class(name).unwrap(), mode)
+        ParameterNode::with_defaults(crate::registry::find_class(name).unwrap(), mode)
     }
 
     fn number(x: f64) -> ParameterValue {

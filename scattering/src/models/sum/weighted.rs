@@ -10,9 +10,9 @@ use std::slice;
 use crate::{
     Basis, Defect, Direction, Incidence, Jones, Mode, Mueller, ParameterError, ParameterNode,
     geometry::beams,
-    models::{Brdf, CommonParameters, LobeSupport},
+    models::{Brdf, CommonParameters, FAMILY, LobeSupport},
     polarization::change_basis,
-    spec::{Family, Parameter},
+    spec::Parameter,
 };
 
 /// The class that sets its k to 0 in NIST's library.
@@ -26,14 +26,8 @@ pub(super) const fn source(
     source_doc: &'static str,
 ) -> [Parameter; 2] {
     [
-        Parameter::number(factor, "1", "1", factor_doc),
-        Parameter::member(
-            source,
-            Family::Brdf,
-            "BRDF_Model",
-            "Microroughness_BRDF_Model",
-            source_doc,
-        ),
+        Parameter::number(factor, 1.0, "1", factor_doc),
+        Parameter::member(source, &FAMILY, "Microroughness_BRDF_Model", source_doc),
     ]
 }
 

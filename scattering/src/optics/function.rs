@@ -2,7 +2,8 @@
 
 use std::{fmt, sync::Arc};
 
-use crate::spec::FormulaFn;
+/// A function of one variable given by a formula.
+pub type FormulaFn = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Scale of the abscissa between two points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
