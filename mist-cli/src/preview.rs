@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mist_engine::material::query::{self, ColourNames};
+use mist_engine::material::query::{self, ColourQuery};
 use mist_runner::files::{AtomicFile, DiskFiles};
 use pictures::image::{Image, PictureFormat};
 use preview::{
@@ -160,7 +160,7 @@ impl PreviewArgs {
     }
 
     fn settings(&self) -> Result<ColourSettings, CommandError> {
-        let names = ColourNames::of_factors(&self.illuminant.illuminant);
+        let names = ColourQuery::of_factors(&self.illuminant.illuminant);
         names.settings(Some(&DiskFiles::beside(&self.material))).map_err(refused)
     }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use mist_engine::{
     colour::ColourTable,
     material::{
-        query::{self, ColourNames},
+        query::{self, ColourQuery},
         results::{self, ResultColumns},
         table,
     },
@@ -128,8 +128,8 @@ pub(super) fn table(args: &TableArgs) -> Result<(), CommandError> {
 }
 
 impl TableArgs {
-    fn colours(&self) -> ColourNames {
-        ColourNames {
+    fn colours(&self) -> ColourQuery {
+        ColourQuery {
             illuminant: Some(self.illuminant.illuminant.clone()),
             observer: Some(self.observer.observer.clone()),
             space: Some(self.space.clone()),

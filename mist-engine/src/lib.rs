@@ -57,6 +57,7 @@ pub mod parameters;
 pub mod quirk;
 pub mod region;
 pub mod replay;
+pub mod request;
 pub mod run;
 pub mod sampling;
 pub mod tolerance;

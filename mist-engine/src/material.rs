@@ -6,18 +6,12 @@
 
 pub mod eval;
 pub mod lobes;
-pub mod query;
 pub mod results;
 pub mod table;
 
 mod patch;
-mod text;
 
 use std::{collections::BTreeMap, sync::Arc};
-
-use mist_format::suggestion::did_you_mean;
-use scattering::{Mode, Model, Notice, ParameterError, models, spec::SharedNotices};
-use serde::{Deserialize, Serialize};
 
 use crate::{
     DataFiles, Failure, FileError, Files, Job, MemoryFiles,
@@ -25,33 +19,12 @@ use crate::{
     quirk::dialect,
     region::RegionError,
     replay::Replay,
+    request::RequestError,
 };
+use mist_format::suggestion::did_you_mean;
+use scattering::{Mode, Model, Notice, ParameterError, models, spec::SharedNotices};
 
-/// A model with the parameters that differ from its defaults.
-///
-/// ```
-/// use mist_engine::material::Material;
-/// use scattering::Mode;
-///
-/// let json = r#"{"model": "Lambertian_BRDF_Model",
-///     "parameters": {"reflectance": "Table_Reflectance", "reflectance.table": 0.5}}"#;
-/// let material = Material::from_json(json).unwrap();
-/// let (model, _) = material.prepare(Mode::Sound, None).unwrap().model().unwrap();
-/// assert_eq!(model.common().lambda, 0.532);
-/// ```
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// Name of the model's class.
-    pub model: String,
-    /// Dotted names with the texts that programs would give them, in the order in which they are
-    /// set.
-    #[serde(default, with = "text")]
-    pub parameters: Vec<(String, String)>,
-    /// Texts of data files by the names that parameters give them.
-    #[serde(default)]
-    pub files: BTreeMap<String, String>,
-}
+pub use crate::request::Material;
 
 /// Why a material cannot be had, evaluated or made a table of.
 #[derive(Debug, thiserror::Error)]
@@ -74,13 +47,8 @@ pub enum MaterialError {
     #[error(transparent)]
     Build(#[from] ParameterError),
     /// A part of the request is wrong.
-    #[error("{part}: {problem}")]
-    Request {
-        /// Which part.
-        part: String,
-        /// What is wrong, and what is expected.
-        problem: String,
-    },
+    #[error(transparent)]
+    Request(#[from] RequestError),
     /// A patch of the request cannot be integrated over.
     #[error("patch {number}: {error}")]
     Patch {
@@ -103,7 +71,7 @@ pub enum MaterialError {
 impl MaterialError {
     /// A part of a request that is wrong.
     pub(crate) fn request(part: impl Into<String>, problem: impl std::fmt::Display) -> Self {
-        Self::Request { part: part.into(), problem: problem.to_string() }
+        Self::Request(RequestError::new(part, problem))
     }
 
     /// What to write instead, if something can be proposed.
@@ -121,7 +89,7 @@ impl MaterialError {
             Self::Model { .. } => Some("model"),
             Self::Set(error) => Some(&error.path),
             Self::Build(error) => Some(&error.parameter),
-            Self::Request { part, .. } => Some(part),
+            Self::Request(error) => Some(&error.key),
             _ => None,
         }
     }

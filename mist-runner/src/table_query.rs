@@ -4,7 +4,7 @@ use mist_engine::{
     Files, Limits,
     material::{
         MaterialError,
-        query::{self, ColourNames},
+        query::{self, ColourQuery},
         table::{GridRequest, TableDirections, TableRequest},
     },
 };
@@ -27,7 +27,7 @@ pub struct TableQuery {
     /// True if Q, U and V follow I.
     pub stokes: bool,
     /// Light, observer, space, adaptation, quantity, filters.
-    pub colours: ColourNames,
+    pub colours: ColourQuery,
 }
 
 impl TableQuery {
@@ -63,7 +63,7 @@ impl TableQuery {
         };
         Ok(TableRequest {
             material: name.to_owned(),
-            what: TableDirections::List(Vec::new()),
+            directions: TableDirections::List(Vec::new()),
             wavelengths: query::nodes("lambda", &text(&self.lambda, "360:5:830"))?,
             settings: self.colours.settings(files)?,
             incident: query::stokes(&text(&self.incident, "1,0,0,0"))?,

@@ -1,6 +1,9 @@
 //! Light paths to colours: models at every wavelength, spectra of pixels, XYZ.
 
-use mist_engine::material::{MaterialError, PreparedMaterial};
+use mist_engine::{
+    material::{MaterialError, PreparedMaterial},
+    request::RequestError,
+};
 use rayon::prelude::*;
 use scattering::{Basis, Model, Side, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Xyz};
@@ -13,7 +16,7 @@ pub(crate) fn plan(
     settings: ColourSettings,
 ) -> Result<ColourPlan, MaterialError> {
     let refused =
-        |part: &str, problem: String| MaterialError::Request { part: part.into(), problem };
+        |part: &str, problem: String| MaterialError::from(RequestError::new(part, problem));
     let grid = Grid::new(wavelengths).map_err(|e| refused("lambda", e.to_string()))?;
     ColourPlan::new(&grid, settings).map_err(|e| refused("adaptation", e.to_string()))
 }
@@ -33,7 +36,7 @@ pub(crate) fn models(
         .collect::<Result<Vec<Model>, MaterialError>>()?;
     if models.iter().any(|model| model.common().side != Side::DownUp) {
         let problem = "a body is seen from outside: type = 0".into();
-        return Err(MaterialError::Request { part: "type".into(), problem });
+        return Err(RequestError::new("type", problem).into());
     }
     Ok(models)
 }

@@ -6,7 +6,7 @@ use exr::prelude::{ReadChannels as _, ReadLayers as _};
 use glam::DVec3;
 use mist_engine::{
     Control,
-    material::{Material, PreparedMaterial, query::ColourNames},
+    material::{Material, PreparedMaterial, query::ColourQuery},
 };
 use pictures::image::{Encoding, Image};
 use preview::{
@@ -27,7 +27,7 @@ fn white() -> PreparedMaterial {
 }
 
 fn settings() -> ColourSettings {
-    let names = ColourNames::of_factors("D65");
+    let names = ColourQuery::of_factors("D65");
     names.settings(None).unwrap()
 }
 

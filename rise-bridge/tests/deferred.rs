@@ -10,7 +10,7 @@ use std::{
 use glam::DVec3;
 use mist_engine::{
     Control, Files, MemoryFiles,
-    material::{Material, PreparedMaterial, query::ColourNames},
+    material::{Material, PreparedMaterial, query::ColourQuery},
 };
 use pictures::image::{Encoding, Image};
 use preview::{BodyShape, Lamp, LampBasis, RenderedFilm, Scene, Sky};
@@ -45,7 +45,7 @@ fn files() -> Arc<dyn Files + Send + Sync> {
 }
 
 fn lit(light: [f64; 4]) -> Illumination {
-    let settings = ColourNames::of_factors("D65").settings(None).unwrap();
+    let settings = ColourQuery::of_factors("D65").settings(None).unwrap();
     let light_basis = LampBasis::PlaneOfIncidence;
     Illumination { wavelengths: NM.to_vec(), settings, light, light_basis }
 }

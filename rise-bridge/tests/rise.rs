@@ -55,9 +55,9 @@ fn tables_are_read_back_and_are_nists_integrals_over_rings() {
         .collect();
     let request = TableRequest {
         material: String::new(),
-        what: TableDirections::List(places),
+        directions: TableDirections::List(places),
         wavelengths: NM.to_vec(),
-        settings: mist_engine::material::query::ColourNames::default().settings(None).unwrap(),
+        settings: mist_engine::request::ColourQuery::default().settings(None).unwrap(),
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: false,
         basis: Basis::Psps,

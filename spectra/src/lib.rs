@@ -18,6 +18,7 @@ pub mod observer;
 pub mod plan;
 pub mod rgb;
 pub mod spectrum;
+mod text;
 pub mod wavelength;
 pub mod weights;
 pub mod xyz;

@@ -7,7 +7,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use mist_engine::{
     Control,
-    material::{Material, PreparedMaterial, query::ColourNames},
+    material::{Material, PreparedMaterial, query::ColourQuery},
 };
 use preview::{BodyShape, Lamp, LampBasis, Scene, Sky, mesh::Mesh, render};
 use rise_bridge::mitsuba::{axes::HalfAngleAxes, pbsdf};
@@ -28,7 +28,7 @@ fn paint() -> PreparedMaterial {
 fn preview(c: &mut Criterion) {
     let paint = paint();
     let nm: Vec<f64> = (40..=70).map(|k| 10.0 * f64::from(k)).collect();
-    let names = ColourNames::of_factors("D65");
+    let names = ColourQuery::of_factors("D65");
     let settings = names.settings(None).expect("names of CIE");
     let mut group = c.benchmark_group("preview");
     group.sample_size(10);

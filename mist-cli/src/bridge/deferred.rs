@@ -1,7 +1,7 @@
 //! `mist bridge --deferred`: scenes of geometry alone, and pictures from their renders.
 
 use ::preview::{Polarization, RenderedFilm, brightest, picture};
-use mist_engine::material::query::{self, ColourNames};
+use mist_engine::material::query::{self, ColourQuery};
 use mist_runner::files::DiskFiles;
 use rise_bridge::{
     export::ExportError,
@@ -60,7 +60,7 @@ pub(super) fn deferred(args: &BridgeArgs, source: &InputText) -> Result<(), Comm
 
 impl BridgeArgs {
     fn lit(&self) -> Result<Illumination, CommandError> {
-        let names = ColourNames::of_factors(&self.illuminant.illuminant);
+        let names = ColourQuery::of_factors(&self.illuminant.illuminant);
         Ok(Illumination {
             wavelengths: query::nodes("lambda", self.lambda.or(LAMBDA)).map_err(refused)?,
             settings: names.settings(None).map_err(refused)?,

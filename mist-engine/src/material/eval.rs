@@ -1,50 +1,15 @@
 //! Mueller matrices of a material for single geometries: JSON in, JSON out.
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::sync::Arc;
 
 use scattering::{Basis, Geometry, Mode, Mueller, Notice};
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Serialize, Serializer};
 
-use super::{Material, MaterialError, text};
-use crate::Files;
-
-/// What is asked.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct EvaluationRequest {
-    /// Name of the model's class.
-    pub model: String,
-    /// As in [`Material::parameters`].
-    #[serde(default, with = "text")]
-    pub parameters: Vec<(String, String)>,
-    /// `psps`, `xyxy` or `plane`.
-    #[serde(default = "psps")]
-    pub basis: String,
-    /// Where the model is evaluated.
-    pub geometries: Vec<GeometryAngles>,
-    /// As in [`Material::files`].
-    #[serde(default)]
-    pub files: BTreeMap<String, String>,
-}
-
-fn psps() -> String {
-    "psps".into()
-}
-
-/// One geometry, radians.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct GeometryAngles {
-    /// Polar angle of incidence.
-    pub theta_i: f64,
-    /// Polar angle of scattering.
-    pub theta_s: f64,
-    /// Azimuth of scattering; 0 is the specular side.
-    pub phi_s: f64,
-    /// Rotation of the sample.
-    #[serde(default)]
-    pub rotation: f64,
-}
+use super::MaterialError;
+use crate::{
+    Files,
+    request::{EvaluationRequest, GeometryAngles, read},
+};
 
 /// The answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -99,11 +64,8 @@ pub fn answer(
     mode: Mode,
     more_files: Option<Arc<dyn Files + Send + Sync>>,
 ) -> Result<EvaluationResponse, MaterialError> {
-    let EvaluationRequest { model, parameters, basis, geometries, files } = request;
-    let basis = Basis::from_name(&basis).ok_or_else(|| {
-        MaterialError::request("basis", format!("{basis:?} is none of psps, xyxy and plane"))
-    })?;
-    let material = Material { model, parameters, files };
+    let (material, basis, geometries) = request.into_parts();
+    let basis: Basis = read("basis", &basis)?;
     let (model, met) = material.prepare(mode, more_files)?.model()?;
     let row = |m: Mueller| m.to_row_major().map(JsonNumber);
     let at = |a: &GeometryAngles| {

@@ -225,10 +225,8 @@ mod tests {
     use super::*;
     use crate::{
         Control,
-        material::{
-            Material,
-            table::{Patch, PatchRow, TableDirections, TableRequest, table},
-        },
+        material::{Material, table::table},
+        request::{Patch, PatchRow, TableDirections, TableRequest},
         sampling::PlaneSampling,
     };
 
@@ -263,7 +261,7 @@ mod tests {
             let place = |thetas, phis| PatchRow { thetai: 50.0, thetas, phis, patch: Patch::Point };
             let request = TableRequest {
                 material: "glass".into(),
-                what: TableDirections::List(vec![place(50.0, 0.0), place(30.0, 75.0)]),
+                directions: TableDirections::List(vec![place(50.0, 0.0), place(30.0, 75.0)]),
                 wavelengths: wavelengths.clone(),
                 settings: settings.clone(),
                 incident: [1.0, 0.3, 0.1, 0.0],

@@ -11,9 +11,9 @@ use scattering::{
     Basis, Direction, Incidence, Model, Mueller, polarization::DirectionWeights, special::gauss,
 };
 
-use super::table::Patch;
 use crate::{
     region::{Angles, Region, RegionError, unit},
+    request::Patch,
     sampling::{Layout, PlaneSampling, Scale, Scratch, sensitivity_rotation::SensitivityRotation},
 };
 
@@ -60,26 +60,12 @@ impl Probes {
         patch: &Patch,
         plane: &PlaneSampling,
     ) -> Result<(), RegionError> {
-        let rad = f64::to_radians;
-        let region = match patch {
-            Patch::Point => {
-                self.push(Direction::new(center.0, center.1), 1.0, [1.0, 0.0]);
-                self.finish(0.0);
-                return Ok(());
-            }
-            Patch::Circle(alpha) => Region::around(center, rad(*alpha)),
-            Patch::Ring(inner, outer) => Region::Annulus {
-                outer_center: center,
-                outer_alpha: rad(*outer),
-                inner_center: center,
-                inner_alpha: rad(*inner),
-            },
-            Patch::Polygon(corners) => Region::Polygon {
-                vertices: corners.iter().map(|(t, p)| (rad(*t), rad(*p))).collect(),
-                polarization_center: center,
-            },
-        };
-        self.add_region(&region, plane)
+        if *patch == Patch::Point {
+            self.push(Direction::new(center.0, center.1), 1.0, [1.0, 0.0]);
+            self.finish(0.0);
+            return Ok(());
+        }
+        self.add_region(&patch.region(center), plane)
     }
 
     fn add_region(&mut self, region: &Region, plane: &PlaneSampling) -> Result<(), RegionError> {

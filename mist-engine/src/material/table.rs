@@ -18,15 +18,16 @@ use super::{
     patch::{PolarCell, Probes, azimuth_cells, polar_cells},
 };
 use crate::{
-    Control, Limits,
+    Control,
     colour::{
         self, Albedo, ColourRow, ColourTable, RowOrder, Symmetry, TableAxis,
         fold::{coloured, interpolation},
     },
     integrate::integrate,
     region::Region,
+    request::{GridPatch, GridRequest, Patch, PatchRow, TableDirections, TableRequest},
     sampling::{
-        self, PlaneSampling,
+        self,
         adaptive::{self, Accuracy},
     },
 };
@@ -35,103 +36,6 @@ use crate::{
 const FILLED_FROM: f64 = 89.9;
 /// Relative error of a hemispherical reflectance.
 const ALBEDO: Accuracy = Accuracy { tolerance: 1e-6, budget: 400_000 };
-
-/// A table that is asked for.
-#[derive(Clone, Debug)]
-pub struct TableRequest {
-    /// Name of the material, for the header.
-    pub material: String,
-    /// Where.
-    pub what: TableDirections,
-    /// Wavelengths, nm, rising.
-    pub wavelengths: Vec<f64>,
-    /// How spectra become colours; the quantity is `brdf` or `factor`.
-    pub settings: ColourSettings,
-    /// Incident Stokes vector.
-    pub incident: [f64; 4],
-    /// Whether Q, U and V follow I.
-    pub stokes: bool,
-    /// The polarization basis.
-    pub basis: Basis,
-    /// How cones, annuli and polygons are sampled.
-    pub sampling: PlaneSampling,
-    /// What it may cost.
-    pub limits: Limits,
-}
-
-/// The directions of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub enum TableDirections {
-    /// Every combination of nodes.
-    Grid(GridRequest),
-    /// These, in this order.
-    List(Vec<PatchRow>),
-}
-
-impl TableDirections {
-    /// How many rows the table has.
-    pub fn rows(&self) -> f64 {
-        match self {
-            Self::Grid(grid) => [&grid.thetai, &grid.thetas, &grid.phis]
-                .iter()
-                .map(|axis| axis.len() as f64)
-                .product(),
-            Self::List(list) => list.len() as f64,
-        }
-    }
-}
-
-/// The nodes of a grid, degrees, rising.
-#[derive(Clone, Debug, PartialEq)]
-pub struct GridRequest {
-    /// Polar angles of incidence.
-    pub thetai: Vec<f64>,
-    /// Polar angles of scattering.
-    pub thetas: Vec<f64>,
-    /// Azimuths: all in 0…180, and the other half is the mirror image, or in −180…180.
-    pub phis: Vec<f64>,
-    /// What solid angle belongs to a node.
-    pub patch: GridPatch,
-}
-
-/// The solid angle of a node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum GridPatch {
-    /// One direction.
-    Point,
-    /// A cone with this half-angle, degrees.
-    Circle(f64),
-    /// The node's Voronoi cell.
-    Cell,
-    /// The average over all azimuths between the neighbours; `phis` has one node.
-    Ring,
-}
-
-/// A row of a list, degrees.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PatchRow {
-    /// Polar angle of incidence.
-    pub thetai: f64,
-    /// Polar angle of scattering.
-    pub thetas: f64,
-    /// Azimuth of scattering.
-    pub phis: f64,
-    /// The solid angle around it.
-    pub patch: Patch,
-}
-
-/// A solid angle, degrees.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Patch {
-    /// One direction.
-    Point,
-    /// A cone with this half-angle.
-    Circle(f64),
-    /// What lies between cones of these half-angles.
-    Ring(f64, f64),
-    /// A polygon of (thetas, phis), with straight edges in the projection.
-    Polygon(Vec<(f64, f64)>),
-}
 
 /// The colour table of `material`.
 ///
@@ -173,7 +77,7 @@ pub fn table(
             dark &= row.spectra[3].iter().all(|v| *v == 0.0);
             rows[at.row] = Some(row);
         }
-        if matches!(request.what, TableDirections::Grid(_)) {
+        if matches!(request.directions, TableDirections::Grid(_)) {
             albedo.push(work.albedo(group, &colours, control)?);
         }
         control.report((number + 1) as f64 / work.groups.len() as f64);
@@ -187,8 +91,8 @@ pub fn table(
         material: request.material.clone(),
         incident: request.incident,
         frame: request.basis.name(),
-        layout: layout(&request.what),
-        patch: patch_name(&request.what),
+        layout: layout(&request.directions),
+        patch: patch_name(&request.directions),
         leading: Vec::new(),
         stokes,
     };
@@ -349,7 +253,7 @@ fn flags(thetai: f64, thetas: f64) -> u8 {
 impl<'a> TableComputation<'a> {
     fn new(material: &PreparedMaterial, request: &'a TableRequest) -> Result<Self, MaterialError> {
         check(request)?;
-        let (probes, groups, rows) = match &request.what {
+        let (probes, groups, rows) = match &request.directions {
             TableDirections::Grid(grid) => grid_work(grid, request)?,
             TableDirections::List(list) => list_work(list, request)?,
         };
@@ -441,7 +345,7 @@ fn check(request: &TableRequest) -> Result<(), MaterialError> {
     if let Some(nm) = bad {
         return Err(MaterialError::request("wavelengths", format!("{nm} nm is no wavelength")));
     }
-    let TableDirections::Grid(grid) = &request.what else { return Ok(()) };
+    let TableDirections::Grid(grid) = &request.directions else { return Ok(()) };
     for (name, nodes, low, high) in [
         ("thetai", &grid.thetai, 0.0, 180.0),
         ("thetas", &grid.thetas, 0.0, 180.0),
@@ -458,7 +362,7 @@ fn check(request: &TableRequest) -> Result<(), MaterialError> {
         let problem = "a ring is an average over the azimuth: expected one node";
         return Err(MaterialError::request("phis", problem));
     }
-    let nodes = request.what.rows();
+    let nodes = request.directions.rows();
     if nodes > request.limits.steps as f64 {
         return Err(MaterialError::Limit(format!("the grid has {nodes:e} nodes")));
     }
@@ -578,16 +482,16 @@ fn first_not_finite(row: &ColourRow, wavelengths: &[f64]) -> Option<f64> {
     wavelengths.get(at).copied()
 }
 
-fn layout(what: &TableDirections) -> RowOrder {
-    let TableDirections::Grid(grid) = what else { return RowOrder::List };
+fn layout(directions: &TableDirections) -> RowOrder {
+    let TableDirections::Grid(grid) = directions else { return RowOrder::List };
     let axes = [("thetai", &grid.thetai), ("thetas", &grid.thetas), ("phis", &grid.phis)];
     let axis =
         |(name, nodes): (&str, &Vec<f64>)| TableAxis { name: name.into(), nodes: nodes.clone() };
     RowOrder::Grid { axes: axes.map(axis).into(), symmetry: symmetry(&grid.phis) }
 }
 
-fn patch_name(what: &TableDirections) -> colour::RowPatch {
-    match what {
+fn patch_name(directions: &TableDirections) -> colour::RowPatch {
+    match directions {
         TableDirections::Grid(grid) => match grid.patch {
             GridPatch::Point => colour::RowPatch::Point,
             GridPatch::Circle(alpha) => colour::RowPatch::Circle(alpha),

@@ -20,6 +20,15 @@ pub enum Projection {
 const DELICATE: f64 = 1e-9;
 
 impl Projection {
+    /// `equidistant`, `equal_area` or `orthographic`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Equidistant => "equidistant",
+            Self::EqualArea => "equal_area",
+            Self::Orthographic => "orthographic",
+        }
+    }
+
     /// Solid angle per area of the plane at the centre.
     pub(super) fn area_per_area(self) -> f64 {
         if self == Self::EqualArea { 2.0 } else { 1.0 }

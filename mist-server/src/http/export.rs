@@ -97,7 +97,9 @@ pub(super) async fn answer(
 
 fn refused(error: ExportError) -> ApiError {
     match error {
-        ExportError::Refused { part, problem } => MaterialError::Request { part, problem }.into(),
+        ExportError::Refused { part, problem } => {
+            MaterialError::from(RequestError::new(part, problem)).into()
+        }
         ExportError::Material(error) => error.into(),
         ExportError::Cancelled => MaterialError::Cancelled.into(),
         ExportError::Tensor(_) | ExportError::Io(_) => ApiError::Failed(error.to_string()),

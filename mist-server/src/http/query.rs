@@ -4,7 +4,7 @@ use axum::{
     extract::FromRequestParts,
     http::{Uri, request::Parts},
 };
-use mist_engine::material::{lobes::LobeRequest, query::ColourNames, table::TableRequest};
+use mist_engine::material::{lobes::LobeRequest, query::ColourQuery, table::TableRequest};
 use mist_runner::table_query::TableQuery;
 use rise_bridge::write::Style;
 use serde::{Deserialize, Serialize};
@@ -163,7 +163,7 @@ impl MaterialQuery {
             incident: self.incident.clone(),
             basis: self.basis.clone(),
             stokes: self.stokes != 0,
-            colours: ColourNames {
+            colours: ColourQuery {
                 illuminant: self.illuminant.clone(),
                 observer: self.observer.clone(),
                 space: self.space.clone(),

@@ -1,7 +1,7 @@
 //! XYZ of the mean BRDF of a patch.
 
 use glam::DVec3;
-use mist_engine::material::{MaterialError, query::ColourNames};
+use mist_engine::material::{MaterialError, query::ColourQuery};
 use spectra::{ColourPlan, Grid};
 
 use super::basis::KlemsPatch;
@@ -15,7 +15,7 @@ pub(super) fn equal_energy(bands: &Bands) -> Result<ColourPlan, ExportError> {
     let wrong =
         |error: &dyn std::fmt::Display| ExportError::refused("wavelengths", error.to_string());
     let grid = Grid::new(bands.nm()).map_err(|error| wrong(&error))?;
-    let names = ColourNames { illuminant: Some("E".into()), ..ColourNames::default() };
+    let names = ColourQuery { illuminant: Some("E".into()), ..ColourQuery::default() };
     ColourPlan::new(&grid, names.settings(None)?).map_err(|error| wrong(&error))
 }
 

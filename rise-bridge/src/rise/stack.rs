@@ -4,7 +4,7 @@
 //! wavelengths for a flat spectrum. All renders together are the spectrum of the pixel; with the
 //! spectrum of an illuminant it becomes XYZ and linear sRGB, as that of a reflectance does.
 
-use mist_engine::material::query::ColourNames;
+use mist_engine::request::ColourQuery;
 use pictures::image::{Encoding, Image};
 use spectra::{ColourPlan, Grid};
 
@@ -30,7 +30,7 @@ pub fn stack(
         let problem = format!("expected {expected} renders of one size, found {}", renders.len());
         return Err(ExportError::refused("renders", problem));
     }
-    let names = ColourNames::of_factors(illuminant);
+    let names = ColourQuery::of_factors(illuminant);
     let grid = Grid::new(wavelengths).map_err(|error| refused("wavelengths", &error))?;
     let plan = ColourPlan::new(&grid, names.settings(None)?);
     let plan = plan.map_err(|error| refused("illuminant", &error))?;

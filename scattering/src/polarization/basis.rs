@@ -37,6 +37,19 @@ impl Basis {
     }
 }
 
+/// A text that is not the name of a [`Basis`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is none of psps, xyxy and plane")]
+pub struct UnknownBasis(pub String);
+
+impl std::str::FromStr for Basis {
+    type Err = UnknownBasis;
+
+    fn from_str(text: &str) -> Result<Self, UnknownBasis> {
+        Self::from_name(text).ok_or_else(|| UnknownBasis(text.to_owned()))
+    }
+}
+
 /// Two unit vectors across a beam; `first` takes the place of s, `second` that of p.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TransverseFrame {

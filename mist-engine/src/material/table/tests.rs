@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::{
-    material::{Material, query::ColourNames},
+    material::Material,
+    request::{ColourQuery, Patch, PatchRow},
     sampling::PlaneSampling,
 };
 
@@ -14,12 +15,12 @@ const GREY: &str = r#"{"model": "Lambertian_BRDF_Model",
 const ROUGH: &str = r#"{"model": "Facet_BRDF_Model", "parameters":
     [["substrate", "(1.5,0)"], ["sdf", "Gaussian_Slope_Distribution_Function"], ["sdf.s", 0.2]]}"#;
 
-fn request(what: TableDirections) -> TableRequest {
+fn request(directions: TableDirections) -> TableRequest {
     TableRequest {
         material: "sample".into(),
-        what,
+        directions,
         wavelengths: (0..8).map(|k| 400.0 + 50.0 * f64::from(k)).collect(),
-        settings: ColourNames::default().settings(None).unwrap(),
+        settings: ColourQuery::default().settings(None).unwrap(),
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,

@@ -8,7 +8,7 @@ use mist_engine::{
     compile,
     material::{
         PreparedMaterial,
-        query::ColourNames,
+        query::ColourQuery,
         results::{self, ResultColumns},
         table::{self, GridPatch, GridRequest, TableDirections, TableRequest},
     },
@@ -52,7 +52,7 @@ impl RingRun {
         let own = Control { cancel: control.cancel.clone(), progress: None };
         job.run(&mut sink, &own).map_err(|failure| refused(failure.to_string()))?;
         let columns = ResultColumns::parse("wl:nm", "f")?;
-        let settings = ColourNames::default().settings(None)?;
+        let settings = ColourQuery::default().settings(None)?;
         let incident = [1.0, 0.0, 0.0, 0.0];
         let table = results::table(&sink.results, &columns, name, &settings, (incident, "psps"))?;
         Ok(Self { results: sink.results, table, prepared })
@@ -81,9 +81,9 @@ pub fn table_of(
     let grid = GridRequest { thetai, thetas, phis: vec![0.0], patch: GridPatch::Ring };
     let request = TableRequest {
         material: String::new(),
-        what: TableDirections::Grid(grid),
+        directions: TableDirections::Grid(grid),
         wavelengths: wavelengths.to_vec(),
-        settings: ColourNames::default().settings(None)?,
+        settings: ColourQuery::default().settings(None)?,
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,
