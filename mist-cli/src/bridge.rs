@@ -2,19 +2,13 @@
 
 use std::path::Path;
 
-use mist_engine::material::query;
 use mist_runner::files::DiskFiles;
 use rise_bridge::rise::{
     product::{self, BridgeFiles, BridgeOptions},
     stack,
 };
 
-use super::{
-    error::CommandError,
-    input::InputText,
-    material::{not_exported, refused},
-    output::print,
-};
+use super::{error::CommandError, input::InputText, material::not_exported, output::print};
 
 mod args;
 mod deferred;
@@ -39,7 +33,7 @@ fn tables(args: &BridgeArgs, source: &InputText) -> Result<(), CommandError> {
     let renderer = args.render.then(render::Renderer::of_environment).transpose()?;
     let options = BridgeOptions {
         nodes: args.nodes,
-        wavelengths: query::nodes("lambda", args.lambda.or(LAMBDA)).map_err(refused)?,
+        wavelengths: args.lambda.nm_or(LAMBDA)?,
         derive: args.derive,
         bands: args.bands,
     };

@@ -2,6 +2,8 @@
 
 use std::process::ExitCode;
 
+use mist_engine::request::RequestError;
+
 use super::report;
 
 /// Error of a command: the reason why it has no result.
@@ -13,6 +15,12 @@ pub(super) enum CommandError {
     Failed(String),
     /// The message was printed already; only the exit code is left.
     Reported(ExitStatus),
+}
+
+impl From<RequestError> for CommandError {
+    fn from(error: RequestError) -> Self {
+        Self::Refused(error.to_string())
+    }
 }
 
 /// End of a piece of work; the worst of several decides.

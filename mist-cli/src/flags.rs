@@ -1,5 +1,6 @@
 //! Flags of several commands: one name for one thing.
 
+use mist_engine::request::{RequestError, Wavelengths, read};
 use preview::LampBasis;
 use scattering::Mode;
 
@@ -51,9 +52,10 @@ pub(super) struct LambdaFlag {
 }
 
 impl LambdaFlag {
-    /// The text of the flag, or `default`.
-    pub(super) fn or<'a>(&'a self, default: &'a str) -> &'a str {
-        self.lambda.as_deref().unwrap_or(default)
+    /// The wavelengths in nm of the flag, or of `default`.
+    pub(super) fn nm_or(&self, default: &str) -> Result<Vec<f64>, RequestError> {
+        let text = self.lambda.as_deref().unwrap_or(default);
+        read::<Wavelengths>("lambda", text).map(Wavelengths::into_vec)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mist_engine::material::query::{self, ColourQuery};
+use mist_engine::request::{ColourQuery, IncidentLight, read};
 use mist_runner::files::{AtomicFile, DiskFiles};
 use pictures::image::{Image, PictureFormat};
 use preview::{
@@ -120,7 +120,7 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), CommandError> {
     let filter = args.polarization()?;
     let source = InputText::read(&args.material)?;
     let material = prepared(&args.material, &source, args.compat.mode())?;
-    let wavelengths = query::nodes("lambda", args.lambda.or("400:10:700")).map_err(refused)?;
+    let wavelengths = args.lambda.nm_or("400:10:700")?;
     let settings = args.settings()?;
     let made = args.threads.run(&source.stem(), |control| {
         preview::render(&material, &scene, &wavelengths, settings.clone(), control)
@@ -161,7 +161,7 @@ impl PreviewArgs {
 
     fn settings(&self) -> Result<ColourSettings, CommandError> {
         let names = ColourQuery::of_factors(&self.illuminant.illuminant);
-        names.settings(Some(&DiskFiles::beside(&self.material))).map_err(refused)
+        Ok(names.settings(Some(&DiskFiles::beside(&self.material)))?)
     }
 
     fn scene(&self) -> Result<Scene, CommandError> {
@@ -177,7 +177,7 @@ impl PreviewArgs {
         Ok(Scene {
             shape: self.body()?,
             lamps: self.lamp.iter().map(|text| lamp(text)).collect::<Result<_, _>>()?,
-            light: query::stokes(&self.incident).map_err(refused)?,
+            light: read::<IncidentLight>("incident", &self.incident)?.0,
             light_basis: self.incident_basis.into(),
             sky: self.sky()?,
             bounce: self.bounce,

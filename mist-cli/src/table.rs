@@ -5,16 +5,17 @@ use std::path::{Path, PathBuf};
 use mist_engine::{
     colour::ColourTable,
     material::{
-        query::{self, ColourQuery},
         results::{self, ResultColumns},
         table,
     },
+    request::{ColourQuery, IncidentLight, PatchList, TableQuery, read},
 };
-use mist_runner::{colours, files::DiskFiles, table_query::TableQuery};
+use mist_runner::{colours, files::DiskFiles};
 use rise_bridge::{
     formats::{self, FileFormat},
     write::Style,
 };
+use scattering::Basis;
 
 use super::{
     error::CommandError,
@@ -146,20 +147,11 @@ impl TableArgs {
         let columns =
             ResultColumns::parse(wavelength.unwrap_or_default(), value.unwrap_or_default())
                 .map_err(refused)?;
-        let settings = self.colours().settings(Some(&DiskFiles::beside(from))).map_err(refused)?;
-        let incident = query::stokes(&self.incident).map_err(refused)?;
-        let frame = match self.basis.as_str() {
-            "psps" => "psps",
-            "xyxy" => "xyxy",
-            "plane" => "plane",
-            other => {
-                return Err(CommandError::Refused(format!(
-                    "--basis is psps, xyxy or plane, not {other}"
-                )));
-            }
-        };
-        results::table(&source.text, &columns, &source.stem(), &settings, (incident, frame))
-            .map_err(refused)
+        let settings = self.colours().settings(Some(&DiskFiles::beside(from)))?;
+        let incident = read::<IncidentLight>("incident", &self.incident)?.0;
+        let basis: Basis = read("basis", &self.basis)?;
+        let light = (incident, basis.name());
+        results::table(&source.text, &columns, &source.stem(), &settings, light).map_err(refused)
     }
 
     /// The table of a material.
@@ -168,18 +160,19 @@ impl TableArgs {
         let source = InputText::read(path)?;
         let prepared = prepared(path, &source, self.compat.mode())?;
         let patches = self.patches.as_deref().map(InputText::read).transpose()?;
+        let patches = patches.map(|source| read::<PatchList>("patches", &source.text));
         let query = TableQuery {
             grid: self.grid.clone(),
-            patches: patches.map(|source| source.text),
+            patches: patches.transpose()?,
             patch: Some(self.patch.clone()),
             lambda: self.lambda.lambda.clone(),
             incident: Some(self.incident.clone()),
             basis: Some(self.basis.clone()),
             stokes: self.stokes,
             colours: self.colours(),
+            ..TableQuery::default()
         };
-        let files = DiskFiles::beside(path);
-        let request = query.request(&source.stem(), Some(&files)).map_err(refused)?;
+        let request = query.request(&source.stem(), Some(&DiskFiles::beside(path)))?;
         let made = |control: &_| table::table(&prepared, &request, control);
         self.threads.run(&source.stem(), made)?.map_err(refused)
     }

@@ -155,7 +155,7 @@ mod tests {
     use scattering::{Mode, ParameterNode, models};
 
     use super::*;
-    use crate::region::{Angles, Region, RegionError};
+    use crate::region::{PolarAngles, Region, RegionError};
     use crate::sampling::{IntegrationMode, Outlines, PlaneSampling, truncated};
 
     const DEGREE: f64 = PI / 180.0;
@@ -203,7 +203,7 @@ mod tests {
         matrix(region, sampling)[(0, 0)]
     }
 
-    fn circle(center: Angles, alpha: f64) -> Region {
+    fn circle(center: PolarAngles, alpha: f64) -> Region {
         Region::Circle { center, alpha }
     }
 
@@ -323,7 +323,7 @@ mod tests {
 
     #[test]
     fn conformance_degenerate_polygons_are_reproduced() {
-        let polygon = |vertices: &[Angles]| Region::Polygon {
+        let polygon = |vertices: &[PolarAngles]| Region::Polygon {
             vertices: vertices.to_vec(),
             polarization_center: (0.0, 0.0),
         };

@@ -11,7 +11,7 @@ pub mod table;
 
 mod patch;
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::sync::Arc;
 
 use crate::{
     DataFiles, Failure, FileError, Files, Job, MemoryFiles,
@@ -207,6 +207,8 @@ impl PreparedMaterial {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
 
     fn error(json: &str) -> MaterialError {

@@ -19,7 +19,7 @@ pub(crate) use polygon::{CellContent, Polygon, PolygonCells};
 use caps::Cap;
 
 /// A direction (θ, φ) in radians.
-pub type Angles = (f64, f64);
+pub type PolarAngles = (f64, f64);
 
 /// The shape of an integral, and the centre towards which a sensitivity is turned.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,12 +27,12 @@ pub enum Region {
     /// One direction; the integral is the integrand times cos θ.
     Differential {
         /// The direction.
-        center: Angles,
+        center: PolarAngles,
     },
     /// The cone of half angle `alpha` around `center`.
     Circle {
         /// The axis, also the centre of polarization.
-        center: Angles,
+        center: PolarAngles,
         /// The half angle, radians; its sign does not matter.
         alpha: f64,
     },
@@ -42,20 +42,20 @@ pub enum Region {
     /// one; NIST's cover what lies in exactly one of them.
     Annulus {
         /// Axis of the outer cone, also the centre of polarization.
-        outer_center: Angles,
+        outer_center: PolarAngles,
         /// Half angle of the outer cone, radians.
         outer_alpha: f64,
         /// Axis of the inner cone.
-        inner_center: Angles,
+        inner_center: PolarAngles,
         /// Half angle of the inner cone, radians.
         inner_alpha: f64,
     },
     /// The polygon whose edges are straight in the projection, closed from last to first.
     Polygon {
         /// The corners, none below the horizon.
-        vertices: Vec<Angles>,
+        vertices: Vec<PolarAngles>,
         /// The centre of polarization.
-        polarization_center: Angles,
+        polarization_center: PolarAngles,
     },
 }
 
@@ -97,7 +97,7 @@ pub enum RegionError {
 }
 
 /// The unit vector of a direction.
-pub(crate) fn unit((theta, phi): Angles) -> DVec3 {
+pub(crate) fn unit((theta, phi): PolarAngles) -> DVec3 {
     let ((s, c), (sp, cp)) = (theta.sin_cos(), phi.sin_cos());
     DVec3::new(s * cp, s * sp, c)
 }
@@ -106,7 +106,7 @@ pub(crate) fn unit((theta, phi): Angles) -> DVec3 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BoundingCone {
     /// Its axis.
-    pub(crate) axis: Angles,
+    pub(crate) axis: PolarAngles,
     /// Its solid angle, sr.
     pub(crate) solid_angle: f64,
 }
@@ -116,7 +116,7 @@ impl Region {
     ///
     /// That of 90° around the normal is the hemisphere, of which it has every direction: integrals
     /// over both share their matrices.
-    pub fn around(center: Angles, alpha: f64) -> Self {
+    pub fn around(center: PolarAngles, alpha: f64) -> Self {
         if center == (0.0, 0.0) && alpha == FRAC_PI_2 {
             return Self::Hemi;
         }
@@ -124,7 +124,7 @@ impl Region {
     }
 
     /// The centre towards which a sensitivity is turned.
-    pub fn polarization_center(&self) -> Angles {
+    pub fn polarization_center(&self) -> PolarAngles {
         match self {
             Self::Differential { center } | Self::Circle { center, .. } => *center,
             Self::Hemi => (0.0, 0.0),
@@ -192,7 +192,7 @@ impl Region {
 }
 
 /// The cone around a polygon: its axis is the middle of the projected extent, raised by 1.
-fn cone_of_polygon(vertices: &[Angles]) -> BoundingCone {
+fn cone_of_polygon(vertices: &[PolarAngles]) -> BoundingCone {
     let corners: Vec<DVec3> = vertices.iter().map(|v| unit(*v)).collect();
     let Some(first) = corners.first() else {
         return BoundingCone { axis: (0.0, 0.0), solid_angle: 0.0 };

@@ -11,4 +11,3 @@ pub mod registry;
 pub mod results;
 pub mod run;
 pub mod shard;
-pub mod table_query;

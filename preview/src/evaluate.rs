@@ -35,7 +35,7 @@ pub(crate) fn models(
         .map(|nm| Ok(material.at(nm / 1000.0).model()?.0))
         .collect::<Result<Vec<Model>, MaterialError>>()?;
     if models.iter().any(|model| model.common().side != Side::DownUp) {
-        let problem = "a body is seen from outside: type = 0".into();
+        let problem = "a body is seen from outside: type = 0";
         return Err(RequestError::new("type", problem).into());
     }
     Ok(models)

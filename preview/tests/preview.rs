@@ -6,7 +6,8 @@ use exr::prelude::{ReadChannels as _, ReadLayers as _};
 use glam::DVec3;
 use mist_engine::{
     Control,
-    material::{Material, PreparedMaterial, query::ColourQuery},
+    material::{Material, PreparedMaterial},
+    request::ColourQuery,
 };
 use pictures::image::{Encoding, Image};
 use preview::{

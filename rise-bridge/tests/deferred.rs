@@ -10,7 +10,8 @@ use std::{
 use glam::DVec3;
 use mist_engine::{
     Control, Files, MemoryFiles,
-    material::{Material, PreparedMaterial, query::ColourQuery},
+    material::{Material, PreparedMaterial},
+    request::ColourQuery,
 };
 use pictures::image::{Encoding, Image};
 use preview::{BodyShape, Lamp, LampBasis, RenderedFilm, Scene, Sky};

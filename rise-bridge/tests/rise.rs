@@ -7,10 +7,8 @@ use std::{
 
 use mist_engine::{
     Control, Files, Limits, MemoryFiles,
-    material::{
-        Material,
-        table::{Patch, PatchRow, TableDirections, TableRequest, mueller},
-    },
+    material::{Material, table::mueller},
+    request::{ColourQuery, Patch, PatchRow, TableDirections, TableRequest},
     sampling::PlaneSampling,
 };
 use rise_bridge::rise::{
@@ -57,7 +55,7 @@ fn tables_are_read_back_and_are_nists_integrals_over_rings() {
         material: String::new(),
         directions: TableDirections::List(places),
         wavelengths: NM.to_vec(),
-        settings: mist_engine::request::ColourQuery::default().settings(None).unwrap(),
+        settings: ColourQuery::default().settings(None).unwrap(),
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: false,
         basis: Basis::Psps,

@@ -7,7 +7,8 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use mist_engine::{
     Control,
-    material::{Material, PreparedMaterial, query::ColourQuery},
+    material::{Material, PreparedMaterial},
+    request::ColourQuery,
 };
 use preview::{BodyShape, Lamp, LampBasis, Scene, Sky, mesh::Mesh, render};
 use rise_bridge::mitsuba::{axes::HalfAngleAxes, pbsdf};

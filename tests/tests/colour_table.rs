@@ -11,10 +11,11 @@ use mist_engine::{
     colour::ColourTable,
     compile,
     material::{
-        Material, query,
+        Material,
         results::{self, ResultColumns},
-        table::{TableDirections, TableRequest, table},
+        table::table,
     },
+    request::{ColourQuery, PatchList, TableDirections, TableRequest, Wavelengths},
     sampling::{Outlines, PlaneSampling},
 };
 use scattering::{Basis, Mode};
@@ -55,9 +56,9 @@ fn of_material(mode: Mode, outlines: Outlines) -> ColourTable {
     let prepared = material.prepare(mode, Some(Arc::new(Folder))).unwrap();
     let request = TableRequest {
         material: "orange_paint".into(),
-        directions: TableDirections::List(query::patches(&text("patches.lst")).unwrap()),
-        wavelengths: query::nodes("lambda", "360:10:750").unwrap(),
-        settings: query::ColourQuery::default().settings(None).unwrap(),
+        directions: TableDirections::List(text("patches.lst").parse::<PatchList>().unwrap().0),
+        wavelengths: "360:10:750".parse::<Wavelengths>().unwrap().into_vec(),
+        settings: ColourQuery::default().settings(None).unwrap(),
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,
@@ -111,7 +112,7 @@ fn exact_apertures_and_sound_physics_change_little() {
 fn the_results_file_gives_the_golden_table() {
     let (_, results) = of_program();
     let columns = ResultColumns::parse("wl:nm", "f0,f1,f2,f3").unwrap();
-    let settings = query::ColourQuery::default().settings(None).unwrap();
+    let settings = ColourQuery::default().settings(None).unwrap();
     let light = ([1.0, 0.0, 0.0, 0.0], "psps");
     let table = results::table(&results, &columns, "orange_paint", &settings, light).unwrap();
     assert_same(&table, &golden(), 1e-8);
@@ -120,7 +121,7 @@ fn the_results_file_gives_the_golden_table() {
 #[test]
 fn a_results_file_without_the_column_is_refused_by_its_name() {
     let columns = ResultColumns::parse("wl:nm", "f9").unwrap();
-    let settings = query::ColourQuery::default().settings(None).unwrap();
+    let settings = ColourQuery::default().settings(None).unwrap();
     let light = ([1.0, 0.0, 0.0, 0.0], "psps");
     let error = results::table("wl\tf0\t\n400\t1\t\n", &columns, "x", &settings, light);
     assert!(error.unwrap_err().to_string().contains("f9"));

@@ -1,7 +1,7 @@
 //! `mist bridge --deferred`: scenes of geometry alone, and pictures from their renders.
 
 use ::preview::{Polarization, RenderedFilm, brightest, picture};
-use mist_engine::material::query::{self, ColourQuery};
+use mist_engine::request::{ColourQuery, IncidentLight, read};
 use mist_runner::files::DiskFiles;
 use rise_bridge::{
     export::ExportError,
@@ -15,11 +15,7 @@ use super::{
     render,
 };
 use crate::{
-    error::CommandError,
-    input::InputText,
-    material::{not_exported, refused},
-    output::print,
-    preview,
+    error::CommandError, input::InputText, material::not_exported, output::print, preview,
 };
 
 /// Writes the scenes, and the pictures if their renders are there or asked for.
@@ -62,9 +58,9 @@ impl BridgeArgs {
     fn lit(&self) -> Result<Illumination, CommandError> {
         let names = ColourQuery::of_factors(&self.illuminant.illuminant);
         Ok(Illumination {
-            wavelengths: query::nodes("lambda", self.lambda.or(LAMBDA)).map_err(refused)?,
-            settings: names.settings(None).map_err(refused)?,
-            light: query::stokes(&self.incident).map_err(refused)?,
+            wavelengths: self.lambda.nm_or(LAMBDA)?,
+            settings: names.settings(None)?,
+            light: read::<IncidentLight>("incident", &self.incident)?.0,
             light_basis: self.incident_basis.into(),
         })
     }

@@ -12,7 +12,7 @@ use scattering::{
 };
 
 use crate::{
-    region::{Angles, Region, RegionError, unit},
+    region::{PolarAngles, Region, RegionError, unit},
     request::Patch,
     sampling::{Layout, PlaneSampling, Scale, Scratch, sensitivity_rotation::SensitivityRotation},
 };
@@ -40,7 +40,7 @@ pub(super) struct Probes {
 pub(super) struct PolarCell {
     pub(super) theta: (f64, f64),
     pub(super) phi: (f64, f64),
-    pub(super) center: Angles,
+    pub(super) center: PolarAngles,
 }
 
 impl Probes {
@@ -56,7 +56,7 @@ impl Probes {
     /// Adds a patch around `center` (radians).
     pub(super) fn add(
         &mut self,
-        center: Angles,
+        center: PolarAngles,
         patch: &Patch,
         plane: &PlaneSampling,
     ) -> Result<(), RegionError> {

@@ -10,7 +10,7 @@ use std::{
 };
 
 use rayon::prelude::*;
-use scattering::{Basis, Incidence, Model, Mueller, Stokes};
+use scattering::{Incidence, Model, Mueller, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Quantity};
 
 use super::{

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::{Angles, unit};
+use super::{PolarAngles, unit};
 
 /// All directions within a half angle of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ const SAME: f64 = 1e-13;
 
 impl Cap {
     /// The cap of half angle |`alpha`|, at most π.
-    pub(super) fn new(center: Angles, alpha: f64) -> Self {
+    pub(super) fn new(center: PolarAngles, alpha: f64) -> Self {
         let (sin, cos) = alpha.abs().min(std::f64::consts::PI).sin_cos();
         Self { axis: unit(center), cos, sin }
     }

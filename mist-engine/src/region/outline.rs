@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::{DVec2, DVec3};
 use scattering::lanes::Real;
 
-use super::{Angles, Polygon, Region, RegionError, unit};
+use super::{PolarAngles, Polygon, Region, RegionError, unit};
 
 /// A polygonal outline and the projected solid angle (sr) that NIST's program gives it.
 #[derive(Clone, Debug)]
@@ -48,7 +48,7 @@ pub(crate) fn outline(region: &Region, sides: i32) -> Result<PolygonOutline, Reg
 /// # Errors
 ///
 /// With the first such vertex.
-pub(crate) fn above_horizon(vertices: &[Angles]) -> Result<(), RegionError> {
+pub(crate) fn above_horizon(vertices: &[PolarAngles]) -> Result<(), RegionError> {
     match vertices.iter().position(|v| unit(*v).z < 0.0) {
         Some(k) => Err(RegionError::BelowHorizon { number: k + 1, theta: vertices[k].0 }),
         None => Ok(()),
@@ -78,7 +78,7 @@ fn steps(sides: i32) -> impl Iterator<Item = f64> {
     std::iter::successors(Some(0.0), move |t| Some(t + step)).take_while(|t| *t <= TAU)
 }
 
-fn circle(center: Angles, alpha: f64, sides: i32) -> PolygonOutline {
+fn circle(center: PolarAngles, alpha: f64, sides: i32) -> PolygonOutline {
     let frame = AxisRotation::new(center);
     let rim =
         steps(sides).map(|t| raised(frame.turn(unit((alpha, t)).to_array()).into())).collect();
@@ -109,7 +109,7 @@ pub(crate) struct AxisRotation {
 
 impl AxisRotation {
     /// The turn that takes the normal to `axis`.
-    pub(crate) fn new(axis: Angles) -> Self {
+    pub(crate) fn new(axis: PolarAngles) -> Self {
         let ((sin, cos), (sin_phi, cos_phi)) = (axis.0.sin_cos(), axis.1.sin_cos());
         Self { sin, cos, sin_phi, cos_phi }
     }
@@ -123,13 +123,13 @@ impl AxisRotation {
 }
 
 /// Both rings as one polygon, the inner one first.
-fn annulus(outer: (Angles, f64), inner: (Angles, f64), sides: i32) -> PolygonOutline {
+fn annulus(outer: (PolarAngles, f64), inner: (PolarAngles, f64), sides: i32) -> PolygonOutline {
     let (mut vertices, inner_tilt) = ring(inner.0, inner.1, sides);
     let (rest, outer_tilt) = ring(outer.0, outer.1, sides);
     vertices.extend(rest);
     let mut outline = of(vertices);
     if !(inner_tilt || outer_tilt) {
-        let disk = |(center, alpha): (Angles, f64)| alpha.sin().powi(2) * center.0.cos();
+        let disk = |(center, alpha): (PolarAngles, f64)| alpha.sin().powi(2) * center.0.cos();
         outline.projected_solid_angle = PI * (disk(outer) - disk(inner)).abs();
     }
     outline
@@ -137,7 +137,7 @@ fn annulus(outer: (Angles, f64), inner: (Angles, f64), sides: i32) -> PolygonOut
 
 /// The points of a ring, moved radially to the horizon where they lie below it, and whether any
 /// does.
-fn ring(center: Angles, alpha: f64, sides: i32) -> (Vec<DVec2>, bool) {
+fn ring(center: PolarAngles, alpha: f64, sides: i32) -> (Vec<DVec2>, bool) {
     let v = unit(center);
     let across = DVec3::Z.cross(v);
     let p = if across.length() > 0.0 { across.normalize() } else { DVec3::Y };

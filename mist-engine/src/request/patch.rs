@@ -5,7 +5,7 @@ use std::{fmt, str::FromStr};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
 use super::error::{InvalidText, number};
-use crate::region::{Angles, Region};
+use crate::region::{PolarAngles, Region};
 
 /// A solid angle around a direction, degrees.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub enum Patch {
 
 impl Patch {
     /// The region around `center` (radians), as the integrals of programs have it.
-    pub fn region(&self, center: Angles) -> Region {
+    pub fn region(&self, center: PolarAngles) -> Region {
         match self {
             Self::Point => Region::Differential { center },
             Self::Circle(alpha) => Region::around(center, alpha.to_radians()),

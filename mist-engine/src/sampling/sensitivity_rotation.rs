@@ -7,7 +7,7 @@
 use glam::DVec3;
 use scattering::lanes::Real;
 
-use crate::region::{Angles, unit};
+use crate::region::{PolarAngles, unit};
 
 /// Components smaller than this count as zero.
 const ZERO: f64 = 1e-10;
@@ -38,7 +38,7 @@ fn doubled<R: Real>(x: R, y: R) -> [R; 2] {
 
 impl SensitivityRotation {
     /// The turn towards the direction `center`.
-    pub(crate) fn towards(center: Angles) -> Self {
+    pub(crate) fn towards(center: PolarAngles) -> Self {
         Self { center: unit(center) }
     }
 

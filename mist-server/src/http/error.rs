@@ -5,7 +5,7 @@ use axum::{
     http::{HeaderValue, StatusCode, header},
     response::{IntoResponse, Response},
 };
-use mist_engine::material::MaterialError;
+use mist_engine::{material::MaterialError, request::RequestError};
 
 use super::problem::Problem;
 use crate::{
@@ -51,6 +51,12 @@ pub(crate) enum ApiError {
     Problem(Box<Problem>),
     /// The work failed.
     Failed(String),
+}
+
+impl From<RequestError> for ApiError {
+    fn from(error: RequestError) -> Self {
+        MaterialError::from(error).into()
+    }
 }
 
 impl From<MaterialError> for ApiError {

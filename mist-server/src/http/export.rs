@@ -5,7 +5,7 @@ use axum::{
     http::{HeaderMap, Uri},
     response::Response,
 };
-use mist_engine::{Control, material::MaterialError};
+use mist_engine::{Control, material::MaterialError, request::RequestError};
 use rise_bridge::{
     export::ExportError,
     formats::{ExportRequest, FileFormat, MaterialWriter},

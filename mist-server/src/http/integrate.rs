@@ -7,11 +7,8 @@ use axum::{
 };
 use mist_engine::{
     Control,
-    material::{
-        MaterialError,
-        lobes::LobeOutput,
-        table::{self, TableRequest},
-    },
+    material::{MaterialError, lobes::LobeOutput, table},
+    request::{PatchList, TableRequest, read},
 };
 use rise_bridge::write;
 use serde::Deserialize;
@@ -30,8 +27,16 @@ use super::{
 use crate::materials::StoredMaterial;
 
 /// Solid angles as JSON.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PatchesJson {
+    patches: PatchList,
+}
+
+/// Solid angles as JSON.
 #[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[expect(dead_code, reason = "describes the API")]
 pub(super) struct Patches {
     /// In the order of the answer.
     patches: Vec<PatchBody>,
@@ -40,6 +45,7 @@ pub(super) struct Patches {
 /// One solid angle, degrees.
 #[derive(Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
+#[expect(dead_code, reason = "describes the API")]
 pub(super) struct PatchBody {
     /// Polar angle of incidence.
     #[schema(example = 45.0)]
@@ -59,38 +65,14 @@ pub(super) struct PatchBody {
     polygon: Option<Vec<[f64; 2]>>,
 }
 
-impl PatchBody {
-    /// The row that says the same as text.
-    fn row(&self, number: usize) -> Result<String, ApiError> {
-        let Self { thetai, thetas, phis, circle, ring, polygon } = self;
-        let shape = match (circle, ring, polygon) {
-            (None, None, None) => "point".to_owned(),
-            (Some(alpha), None, None) => format!("circle {alpha}"),
-            (None, Some([inner, outer]), None) => format!("ring {inner} {outer}"),
-            (None, None, Some(corners)) => {
-                let corners: Vec<String> =
-                    corners.iter().map(|[theta, phi]| format!("{theta} {phi}")).collect();
-                format!("polygon {}", corners.join(" "))
-            }
-            _ => {
-                let message = "expected one of circle, ring and polygon, or none for a point";
-                return Err(ApiError::Body(format!("patch {number}: {message}")));
-            }
-        };
-        Ok(format!("{thetai} {thetas} {phis} {shape}"))
-    }
-}
-
-/// The rows of a body, one per line.
-fn rows(body: String) -> Result<String, ApiError> {
+/// The rows of a body: JSON, or one per line.
+fn rows(body: &str) -> Result<PatchList, ApiError> {
     if !body.trim_start().starts_with('{') {
-        return Ok(body);
+        return Ok(read("patches", body)?);
     }
-    let Patches { patches } = serde_json::from_str(&body)
+    let PatchesJson { patches } = serde_json::from_str(body)
         .map_err(|error| ApiError::Body(format!("not a list of patches: {error}")))?;
-    let rows: Result<Vec<String>, ApiError> =
-        patches.iter().enumerate().map(|(at, patch)| patch.row(at + 1)).collect();
-    Ok(rows?.join("\n"))
+    Ok(patches)
 }
 
 /// Means over solid angles: rows `thetai thetas phis circle 2`, `… ring 10 12`, `… polygon t p t
@@ -117,7 +99,7 @@ pub(super) async fn integrate(
 ) -> Result<Response, ApiError> {
     let out = LobeOutput::parse(query.out().unwrap_or("rgb"))?;
     let kept = app.materials.find(&name)?;
-    let mut request = query.table_at(rows(body)?).request(&name, None)?;
+    let mut request = query.request_at(rows(&body)?, &name)?;
     admit(&request, &app.limits)?;
     request.limits = app.limits.engine(app.limits.max_time);
     request.stokes |= query.component() > 0;

@@ -4,17 +4,19 @@ use axum::{
     extract::FromRequestParts,
     http::{Uri, request::Parts},
 };
-use mist_engine::material::{lobes::LobeRequest, query::ColourQuery, table::TableRequest};
-use mist_runner::table_query::TableQuery;
+use mist_engine::{
+    material::lobes::LobeRequest,
+    request::{ColourQuery, PatchList, RequestError, TableDirections, TableQuery, TableRequest},
+};
 use rise_bridge::write::Style;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::{error::ApiError, extract::Query, renderer};
 use crate::limits::{LimitReached, ServeLimits};
 
 /// The keys of a query; all have defaults but the directions.
-#[derive(Clone, Debug, Default, Deserialize, Serialize, IntoParams)]
+#[derive(Clone, Debug, Default, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields, default)]
 #[into_params(parameter_in = Query)]
 pub(super) struct MaterialQuery {
@@ -114,51 +116,47 @@ impl MaterialQuery {
         self.wait
     }
 
-    /// Everything that the table depends on.
-    pub(super) fn content(&self) -> impl Serialize + use<> {
-        Self { wait: None, out: None, ..self.clone() }
+    /// The table of the material called `name` for the grid or the patches in the query.
+    pub(super) fn request(&self, name: &str) -> Result<TableRequest, ApiError> {
+        Ok(self.query()?.request(name, None)?)
     }
 
-    /// The table of the grid or of the patches in the query.
-    pub(super) fn table(&self) -> Result<TableQuery, ApiError> {
-        if let Some(patches) = &self.patches {
-            return Ok(self.table_at(patches.replace(';', "\n")));
-        }
-        let axes = [("thetai", &self.thetai), ("thetas", &self.thetas), ("phis", &self.phis)];
-        let axes: Vec<String> = axes
-            .into_iter()
-            .filter_map(|(name, nodes)| Some(format!("{name}={}", nodes.as_ref()?)))
-            .collect();
-        if axes.is_empty() {
-            let message = "the query names a grid by thetai, thetas and phis, or patches";
-            return Err(ApiError::Query(message.into()));
-        }
-        Ok(TableQuery { grid: Some(axes.join(",")), ..self.without_directions() })
-    }
-
-    /// The table of the patches in `rows`, one per line.
-    pub(super) fn table_at(&self, rows: String) -> TableQuery {
-        TableQuery { patches: Some(rows), ..self.without_directions() }
+    /// The same for these patches.
+    pub(super) fn request_at(
+        &self,
+        PatchList(rows): PatchList,
+        name: &str,
+    ) -> Result<TableRequest, ApiError> {
+        let directions = TableDirections::List(rows);
+        let query = TableQuery { patches: None, ..self.query()? };
+        Ok(query.request_for(directions, name, None)?)
     }
 
     /// The same for single directions.
     pub(super) fn view(&self, limits: &ServeLimits) -> Result<LobeRequest, ApiError> {
-        let mut table = self.without_directions();
-        let turn = renderer::turn(table.basis.as_deref());
+        let mut query = self.query()?;
+        let turn = renderer::turn(query.basis.as_deref());
         if turn.is_some() {
-            table.basis = None;
+            query.basis = None;
         }
-        let request = table.without_directions("")?;
+        let none = TableDirections::List(Vec::new());
+        let request = query.request_for(none, "", None)?;
         admit(&request, limits)?;
         let TableRequest { wavelengths, settings, incident, basis, .. } = request;
         Ok(LobeRequest { wavelengths, settings, incident, basis, turn })
     }
 
-    fn without_directions(&self) -> TableQuery {
-        TableQuery {
+    fn query(&self) -> Result<TableQuery, ApiError> {
+        let patches = self.patches.as_deref().map(|rows| {
+            PatchList::inline(rows).map_err(|error| RequestError::new("patches", error))
+        });
+        Ok(TableQuery {
             grid: None,
-            patches: None,
+            thetai: self.thetai.clone(),
+            thetas: self.thetas.clone(),
+            phis: self.phis.clone(),
             patch: self.patch.clone(),
+            patches: patches.transpose()?,
             lambda: self.lambda.clone(),
             incident: self.incident.clone(),
             basis: self.basis.clone(),
@@ -171,14 +169,14 @@ impl MaterialQuery {
                 quantity: self.quantity.clone(),
                 filters: self.filter.iter().cloned().collect(),
             },
-        }
+        })
     }
 }
 
 /// Refuses a table that is larger than the service makes, before anything is computed; the
 /// request gets the limits of the service.
 pub(super) fn admit(request: &TableRequest, limits: &ServeLimits) -> Result<(), ApiError> {
-    let (rows, waves) = (request.what.rows(), request.wavelengths.len());
+    let (rows, waves) = (request.directions.rows(), request.wavelengths.len());
     let numbers = rows * waves as f64 * if request.stokes { 4.0 } else { 1.0 };
     let refuse = |flag, value, message| Err(ApiError::Limit(LimitReached { flag, value, message }));
     if waves > limits.max_wavelengths {

@@ -6,9 +6,9 @@ use axum::{
     http::{HeaderMap, Uri},
     response::Response,
 };
-use mist_engine::material::{
-    MaterialError,
-    table::{self, TableRequest},
+use mist_engine::{
+    material::{MaterialError, table},
+    request::TableRequest,
 };
 use rise_bridge::formats::{self, ColourWriter, FORMATS, FileFormat, FormatWriter};
 use serde::Deserialize;
@@ -94,18 +94,20 @@ async fn colours(
 ) -> Result<Response, ApiError> {
     let query = MaterialQuery::of(uri)?;
     let kept = app.materials.find(name)?;
-    let content = (name, &kept.hash, format.name, query.content());
+    let mut request = query.request(name)?;
+    let style = query.style();
+    let form = (format.name, query.component(), style.digits, style.xyz);
+    let content = (&kept.hash, form, &request);
     let file = FileRequest::new(&content, format.media_type, query.wait(), (headers, uri))?;
     if let Some(answer) = file.not_modified() {
         return Ok(answer);
     }
-    let mut request = query.table()?.request(name, None)?;
     admit(&request, &app.limits)?;
     request.limits = app.limits.engine(app.limits.max_time);
     let bytes = memory_of(&request);
     let work = move |control: &mist_engine::Control| {
         let table = table::table(&kept.prepared, &request, control)?;
-        let text = (writer.text)(&table, query.component(), query.style())
+        let text = (writer.text)(&table, query.component(), style)
             .map_err(|error| MaterialError::NotFinite(error.to_string()))?;
         Ok(Bytes::from(text))
     };
@@ -116,5 +118,5 @@ async fn colours(
 /// 16 characters, and for each row its directions, colours and flags twice.
 pub(super) fn memory_of(request: &TableRequest) -> f64 {
     let components = if request.stokes { 4.0 } else { 1.0 };
-    request.what.rows() * (512.0 + 24.0 * components * request.wavelengths.len() as f64)
+    request.directions.rows() * (512.0 + 24.0 * components * request.wavelengths.len() as f64)
 }

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use mist_engine::material::MaterialError;
+use mist_engine::{material::MaterialError, request::RequestError};
 
 use crate::tensor::TensorError;
 
@@ -29,6 +29,12 @@ pub enum ExportError {
     /// The export was cancelled.
     #[error("cancelled")]
     Cancelled,
+}
+
+impl From<RequestError> for ExportError {
+    fn from(error: RequestError) -> Self {
+        Self::Material(error.into())
+    }
 }
 
 impl ExportError {

@@ -1,6 +1,6 @@
 //! The request for a table of a material, of all formats together.
 
-use mist_engine::material::query;
+use mist_engine::request::{Wavelengths, read};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
@@ -50,7 +50,8 @@ impl ExportRequest {
 
     /// The wavelengths in nm, by default `usual`.
     pub(super) fn wavelengths(&self, usual: &str) -> Result<Vec<f64>, ExportError> {
-        Ok(query::nodes("lambda", self.lambda.as_deref().unwrap_or(usual))?)
+        let text = self.lambda.as_deref().unwrap_or(usual);
+        Ok(read::<Wavelengths>("lambda", text)?.into_vec())
     }
 
     /// The part that the grid `auto:PERCENT` allows; nothing for other grids.

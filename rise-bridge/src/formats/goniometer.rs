@@ -4,7 +4,8 @@ use std::io::Write;
 
 use mist_engine::{
     Control,
-    material::{PreparedMaterial, query, table::GridPatch},
+    material::PreparedMaterial,
+    request::{GridPatch, GridRequest},
 };
 
 use super::export::{ExportRequest, error_of_f};
@@ -33,7 +34,7 @@ pub(super) fn write(
             (axes, Some(error))
         }
         None => {
-            let grid = query::grid(grid, GridPatch::Point)?;
+            let grid = GridRequest::of_text(grid, GridPatch::Point)?;
             let axes = GoniometerAxes { thetai: grid.thetai, thetas: grid.thetas, phis: grid.phis };
             axes.check()?;
             let line = bands.nm().len() * CHARACTERS[0] + CHARACTERS[1];

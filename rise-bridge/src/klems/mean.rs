@@ -1,7 +1,7 @@
 //! XYZ of the mean BRDF of a patch.
 
 use glam::DVec3;
-use mist_engine::material::{MaterialError, query::ColourQuery};
+use mist_engine::{material::MaterialError, request::ColourQuery};
 use spectra::{ColourPlan, Grid};
 
 use super::basis::KlemsPatch;

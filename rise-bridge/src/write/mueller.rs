@@ -1,9 +1,6 @@
 //! Mueller matrices and spectra of solid angles, row by row: as text and as JSON.
 
-use mist_engine::{
-    colour::ColourTable,
-    material::table::{MuellerRow, TableRequest},
-};
+use mist_engine::{colour::ColourTable, material::table::MuellerRow, request::TableRequest};
 use serde_json::json;
 
 use super::{

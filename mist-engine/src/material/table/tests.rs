@@ -2,12 +2,13 @@
 
 use super::*;
 use crate::{
+    Limits,
     material::Material,
     request::{ColourQuery, Patch, PatchRow},
     sampling::PlaneSampling,
 };
 
-use scattering::Mode;
+use scattering::{Basis, Mode};
 
 const GREY: &str = r#"{"model": "Lambertian_BRDF_Model",
     "parameters": [["reflectance", "Table_Reflectance"], ["reflectance.table", 0.5]]}"#;

@@ -9,7 +9,7 @@ use scattering::{
 
 use super::Estimate;
 use crate::{
-    region::{Angles, Region, unit},
+    region::{PolarAngles, Region, unit},
     sampling::{seen_group, sensitivity_rotation::SensitivityRotation},
 };
 
@@ -64,7 +64,7 @@ impl<'a> Integrand<'a> {
     }
 
     /// One direction: nothing is left to estimate, and nothing is turned.
-    pub(super) fn one(&self, center: Angles) -> Estimate {
+    pub(super) fn one(&self, center: PolarAngles) -> Estimate {
         let direction = Direction::new(center.0, center.1);
         let mut out = [Mueller::ZERO];
         self.model.evaluate(self.incidence, &[direction], self.basis, &mut out);

@@ -6,7 +6,7 @@ use scattering::{Mode, ParameterNode, models};
 
 use super::*;
 use crate::{
-    region::Angles,
+    region::PolarAngles,
     sampling::{Layout, PlaneSampling},
 };
 
@@ -31,7 +31,7 @@ fn regions() -> Vec<Region> {
         inner_center,
         inner_alpha,
     };
-    let polygon = |vertices: &[Angles]| Region::Polygon {
+    let polygon = |vertices: &[PolarAngles]| Region::Polygon {
         vertices: vertices.to_vec(),
         polarization_center: (0.4, 0.3),
     };

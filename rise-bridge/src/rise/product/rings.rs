@@ -8,10 +8,11 @@ use mist_engine::{
     compile,
     material::{
         PreparedMaterial,
-        query::ColourQuery,
         results::{self, ResultColumns},
-        table::{self, GridPatch, GridRequest, TableDirections, TableRequest},
+        table,
     },
+    request::{ColourQuery, GridPatch, GridRequest, TableDirections, TableRequest},
+    sampling::PlaneSampling,
 };
 use scattering::{Basis, Mode};
 
@@ -87,7 +88,7 @@ pub fn table_of(
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,
-        sampling: mist_engine::sampling::PlaneSampling::default(),
+        sampling: PlaneSampling::default(),
         limits: Limits::default(),
     };
     let own = Control { cancel: control.cancel.clone(), progress: None };
