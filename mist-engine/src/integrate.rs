@@ -58,7 +58,7 @@ pub(crate) fn integrate_counting(
     Some((integral, sum.count))
 }
 
-/// What a detector of the sensitivity `pol` sees of a Mueller integral under the light `inpol`.
+/// Value of a detector of the sensitivity `pol` for a Mueller integral and the light `inpol`.
 pub fn contract(integral: &Mueller, pol: &Stokes, inpol: &Stokes) -> f64 {
     pol.dot(&(*integral * *inpol))
 }

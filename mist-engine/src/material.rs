@@ -37,7 +37,7 @@ pub enum MaterialError {
     Model {
         /// The name.
         name: String,
-        /// What could have been meant.
+        /// Suggested name.
         help: Option<String>,
     },
     /// A parameter cannot be set.
@@ -74,7 +74,7 @@ impl MaterialError {
         Self::Request(RequestError::new(part, problem))
     }
 
-    /// What to write instead, if something can be proposed.
+    /// Suggested text, if there is one.
     pub fn help(&self) -> Option<&str> {
         match self {
             Self::Model { help, .. } => help.as_deref(),

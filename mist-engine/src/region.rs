@@ -10,16 +10,17 @@ use glam::DVec3;
 use thiserror::Error;
 
 mod caps;
+mod direction;
 mod outline;
 mod polygon;
 
 pub(crate) use outline::{AxisRotation, above_horizon, outline, refuse_crossing};
 pub(crate) use polygon::{CellContent, Polygon, PolygonCells};
 
-use caps::Cap;
+pub use direction::PolarAngles;
+pub(crate) use direction::unit;
 
-/// A direction (θ, φ) in radians.
-pub type PolarAngles = (f64, f64);
+use caps::Cap;
 
 /// The shape of an integral, and the centre towards which a sensitivity is turned.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,12 +97,6 @@ pub enum RegionError {
     },
 }
 
-/// The unit vector of a direction.
-pub(crate) fn unit((theta, phi): PolarAngles) -> DVec3 {
-    let ((s, c), (sp, cp)) = (theta.sin_cos(), phi.sin_cos());
-    DVec3::new(s * cp, s * sp, c)
-}
-
 /// The circular cone that is sampled to cover a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BoundingCone {
@@ -133,7 +128,7 @@ impl Region {
         }
     }
 
-    /// Whether NIST's program takes a polygon for it (`Outlines::Polygons` of the sampling).
+    /// True if NIST's program takes a polygon for it (`Outlines::Polygons` of the sampling).
     pub(crate) fn is_round(&self) -> bool {
         matches!(self, Self::Circle { .. } | Self::Hemi | Self::Annulus { .. })
     }

@@ -17,6 +17,7 @@ use scattering::{Direction, geometry::is_above};
 use crate::region::{AxisRotation, Polygon, Region, RegionError};
 use crate::region::{above_horizon, outline, refuse_crossing};
 
+mod accuracy;
 pub mod adaptive;
 mod chunk;
 mod key;
@@ -29,12 +30,13 @@ pub(crate) mod sensitivity_rotation;
 
 pub(crate) use chunk::{DirectionChunk, Scratch};
 pub use key::LayoutKey;
+pub(crate) use pattern::truncated;
 pub use projection::Projection;
 pub(crate) use rule::IntegrationMode;
 pub use rule::{Outlines, PlaneSampling, SamplingRule};
 
 use chunk::seen_group;
-use lifting::{PointClassifier, UndecidedPoint};
+use lifting::{Membership, PointClassifier, UndecidedPoint};
 use pattern::PointPattern;
 use sensitivity_rotation::SensitivityRotation;
 
@@ -69,19 +71,6 @@ struct Plan {
     turn: SensitivityRotation,
     scale: Scale,
     outlines: Outlines,
-}
-
-/// Condition for a direction of the cone to belong to the region.
-#[derive(Clone, Debug)]
-enum Membership {
-    /// Nothing: the region is the cone.
-    Cone,
-    /// To be inside of a polygon.
-    Polygon(Polygon),
-    /// To be outside of the cone with this axis and cosine.
-    Outside { axis: DVec3, cos: f64 },
-    /// The region is one direction, laid out without a cone.
-    One(Direction),
 }
 
 impl Layout {
@@ -341,14 +330,4 @@ fn grid(region: &Region, plane: &PlaneSampling) -> (f64, f64) {
     let alpha = (1.0 - solid_angle / TAU).acos();
     let projection = plane.projection;
     ((per_point / projection.area_per_area()).sqrt(), projection.radius(alpha))
-}
-
-/// The whole part of `x` as C's (int) gives it on x86: i32::MIN where it does not fit.
-pub(crate) fn truncated(x: f64) -> i32 {
-    let whole = x.trunc();
-    if whole >= f64::from(i32::MIN) && whole <= f64::from(i32::MAX) {
-        whole as i32
-    } else {
-        i32::MIN
-    }
 }

@@ -37,7 +37,7 @@ pub fn find_class(name: &str) -> Option<&'static Class> {
     classes().find(|class| class.name == name)
 }
 
-/// Whether `name` is an abstract class between the base of a family and its members.
+/// True if `name` is an abstract class between the base of a family and its members.
 pub fn is_abstract(name: &str) -> bool {
     FAMILIES.iter().any(|family| family.abstract_classes.iter().any(|(this, _)| *this == name))
 }

@@ -14,7 +14,7 @@ use super::{MaterialError, PreparedMaterial, table::scale};
 /// Pairs that are evaluated at a time: their matrices stay in the cache.
 const BATCH: usize = 256;
 
-/// What is asked of every pair.
+/// Output for every pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LobeOutput {
     /// Linear RGB of the exit light.
@@ -48,18 +48,18 @@ impl LobeOutput {
 /// and to the viewer.
 pub type BasisChange = fn(Mueller, DVec3, DVec3) -> Mueller;
 
-/// How the pairs are looked at.
+/// Settings for the evaluation of pairs.
 #[derive(Clone, Debug)]
 pub struct LobeRequest {
     /// Wavelengths, nm, rising.
     pub wavelengths: Vec<f64>,
-    /// How spectra become colours.
+    /// Settings for colours of spectra.
     pub settings: ColourSettings,
     /// Incident Stokes vector, in the basis.
     pub incident: [f64; 4],
     /// The basis of the matrices.
     pub basis: Basis,
-    /// What is done to the matrices after that.
+    /// Transformation of the matrices after that.
     pub turn: Option<BasisChange>,
 }
 
@@ -68,7 +68,7 @@ pub struct Lobes {
     models: Vec<Model>,
     /// Per wavelength and Stokes component what it gives to R, G and B; none for one wavelength.
     weights: Vec<[[f64; 3]; 4]>,
-    /// What intensities are multiplied with.
+    /// Factor of intensities.
     scale: f64,
     light: Stokes,
     basis: Basis,
@@ -99,7 +99,7 @@ impl Lobes {
         })
     }
 
-    /// How many wavelengths there are.
+    /// Number of wavelengths.
     pub fn wavelengths(&self) -> usize {
         self.models.len()
     }
@@ -116,7 +116,7 @@ impl Lobes {
         Ok(())
     }
 
-    /// How many numbers a pair has in the answer.
+    /// Count of numbers per pair in the response.
     pub fn width(&self, out: LobeOutput) -> usize {
         match out {
             LobeOutput::Rgb => 3,

@@ -48,7 +48,7 @@ impl Probes {
         self.ends.len()
     }
 
-    /// How many directions all patches have.
+    /// Number of directions of all patches.
     pub(super) fn directions(&self) -> usize {
         self.directions.len()
     }

@@ -99,7 +99,7 @@ pub fn table(
     Ok(colours.table(head, rows.into_iter().flatten().collect(), albedo))
 }
 
-/// What a BRDF (1/sr) is multiplied with to be `quantity`.
+/// Factor from a BRDF (1/sr) to `quantity`.
 pub(super) fn scale(quantity: Quantity) -> f64 {
     if quantity == Quantity::Factor { PI } else { 1.0 }
 }
@@ -149,7 +149,7 @@ pub fn mueller(
     Ok(rows.into_iter().flatten().collect())
 }
 
-/// What colours the rows of one table.
+/// Conversion of the rows of one table to colours.
 pub(super) struct Colours {
     grid: Grid,
     pub(super) plan: ColourPlan,
@@ -157,7 +157,7 @@ pub(super) struct Colours {
     reflectance: ColourPlan,
 }
 
-/// What the header of a table says besides its colours.
+/// Fields of the header of a table, except for its colours.
 pub(super) struct TableHead {
     pub(super) material: String,
     pub(super) incident: [f64; 4],

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::{PolarAngles, unit};
+use super::direction::{PolarAngles, unit};
 
 /// All directions within a half angle of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,12 @@
 //! Polygons in the plane of the sample, and which points NIST's rules put inside of them.
 
 mod cells;
+mod edge;
 mod slabs;
 
 pub(crate) use cells::{CellContent, PolygonCells};
+
+use edge::{edge, edges};
 use glam::DVec2;
 use slabs::Slabs;
 
@@ -21,35 +24,6 @@ const SLABS: (usize, usize, usize) = (16, 1024, 2);
 /// Smallest and largest number of rows of cells, and number of points per cell of each
 /// row and column: to fill the cells costs less than they save.
 const CELLS: (usize, usize, f64) = (16, 128, 3.0);
-
-/// One edge, from `a` to `b`.
-#[derive(Clone, Copy, Debug)]
-struct PolygonEdge {
-    a: DVec2,
-    b: DVec2,
-}
-
-impl PolygonEdge {
-    /// True if a ray from `p` counts this edge: the first rule that applies decides.
-    fn counts(&self, p: DVec2) -> bool {
-        let Self { a, b } = self;
-        if (a.x < p.x && b.x <= p.x) || (a.x > p.x && b.x >= p.x) || (a.y < p.y && b.y <= p.y) {
-            return false;
-        }
-        if a.y >= p.y && b.y > p.y {
-            return (a.x >= p.x && b.x < p.x) || (a.x <= p.x && b.x > p.x);
-        }
-        a.y + (b.y - a.y) * (p.x - a.x) / (b.x - a.x) > p.y
-    }
-
-    /// True if the open segments cross in one point.
-    fn crosses(&self, other: &Self) -> bool {
-        let (d, e, ac) = (self.b - self.a, other.b - other.a, other.a - self.a);
-        let parallel = d.perp_dot(e);
-        let (t, u) = (ac.perp_dot(e) / parallel, ac.perp_dot(d) / parallel);
-        parallel != 0.0 && 0.0 < t && t < 1.0 && 0.0 < u && u < 1.0
-    }
-}
 
 impl Polygon {
     /// The polygon with these vertices; few or none of them are fine.
@@ -99,18 +73,6 @@ impl Polygon {
         let mut pairs = (1..n).flat_map(|j| (j + 2..n.saturating_sub(1)).map(move |i| (j, i)));
         pairs.find(|(j, i)| edge(*j).crosses(&edge(*i)))
     }
-}
-
-/// The edge from vertex `k` to the next one, or to the first.
-#[inline]
-fn edge(vertices: &[DVec2], k: usize) -> PolygonEdge {
-    let next = if k + 1 == vertices.len() { 0 } else { k + 1 };
-    PolygonEdge { a: vertices[k], b: vertices[next] }
-}
-
-/// The edges in order, the closing one last.
-fn edges(vertices: &[DVec2]) -> impl Iterator<Item = PolygonEdge> + Clone + '_ {
-    (0..vertices.len()).map(|k| edge(vertices, k))
 }
 
 #[cfg(test)]

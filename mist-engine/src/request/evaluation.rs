@@ -18,7 +18,7 @@ pub struct EvaluationRequest {
     /// `psps`, `xyxy` or `plane`.
     #[serde(default = "psps")]
     pub basis: String,
-    /// Where the model is evaluated.
+    /// Geometries in which the model is evaluated.
     pub geometries: Vec<GeometryAngles>,
     /// As in [`Material::files`].
     #[serde(default)]

@@ -41,7 +41,7 @@ pub struct ProgramDescription {
     /// Texts of data files by the names that the program gives them.
     #[serde(default)]
     pub files: BTreeMap<String, String>,
-    /// Whether it gives NIST's tables, defects included.
+    /// True if it gives NIST's tables, defects included.
     #[serde(default)]
     pub compat: bool,
     /// Name of the job.

@@ -39,7 +39,7 @@ pub struct TableQuery {
     pub incident: Option<String>,
     /// Polarization basis of the exit light; `psps`.
     pub basis: Option<String>,
-    /// Whether Q, U and V follow I.
+    /// True if Q, U and V follow I.
     pub stokes: bool,
     /// Illuminant, observer, space, adaptation, quantity, filters.
     pub colours: ColourQuery,
@@ -119,15 +119,15 @@ pub struct TableRequest {
     pub directions: TableDirections,
     /// Wavelengths, nm, rising.
     pub wavelengths: Vec<f64>,
-    /// How spectra become colours; the quantity is `brdf` or `factor`.
+    /// Settings for colours of spectra; the quantity is `brdf` or `factor`.
     pub settings: ColourSettings,
     /// Incident Stokes vector.
     pub incident: [f64; 4],
-    /// Whether Q, U and V follow I.
+    /// True if Q, U and V follow I.
     pub stokes: bool,
     /// The polarization basis.
     pub basis: Basis,
-    /// How cones, annuli and polygons are sampled.
+    /// Sampling of cones, annuli and polygons.
     pub sampling: PlaneSampling,
     /// Limits of the cost; they change no value.
     pub limits: Limits,

@@ -23,6 +23,7 @@ use crate::region::{Region, RegionError};
 mod balance;
 mod boundary;
 mod cell;
+mod estimate;
 mod first;
 mod gauss;
 mod integrand;
@@ -30,33 +31,16 @@ mod peaks;
 mod rays;
 mod slice;
 
-use cell::{CubatureCell, NODES};
+pub use super::accuracy::Accuracy;
+pub use estimate::Estimate;
+
+use cell::{CubatureCell, MeasuredCell, NODES};
 use integrand::Integrand;
 use rays::Rays;
-
-/// Required accuracy of an integral, and its limit of evaluations.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Accuracy {
-    /// Largest error of an element, relative to the largest element: that of unpolarized light.
-    pub tolerance: f64,
-    /// Evaluations of the model, at most; they are held in memory, about 6 bytes each.
-    pub budget: u64,
-}
 
 /// Errors below this are small enough whatever the integral is: without it, integrals that
 /// vanish up to rounding would never be done.
 pub const FLOOR: f64 = 1e-20;
-
-/// A Mueller integral and how far from the truth it may be.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Estimate {
-    /// The integral.
-    pub matrix: Mueller,
-    /// The estimated error of each element, not negative.
-    pub error: Mueller,
-    /// Evaluations of the model.
-    pub evaluations: u64,
-}
 
 /// The estimated error of what a detector of the sensitivity `pol` sees under `inpol`, from the
 /// errors of the elements.
@@ -144,15 +128,6 @@ pub(crate) fn nodes(
         }
     }
     Ok(())
-}
-
-/// A cell with its part of the integral.
-struct MeasuredCell {
-    cell: CubatureCell,
-    matrix: Mueller,
-    error: Mueller,
-    /// True if the error along p is larger than that along t.
-    along_p: bool,
 }
 
 /// An integral on its way.
@@ -261,13 +236,6 @@ const WORTH: f64 = 0.1;
 
 /// The part of the allowed error that the cells which are not halved may have.
 const ENOUGH: f64 = 0.8;
-
-impl Estimate {
-    fn is_finite(&self) -> bool {
-        let finite = |m: &Mueller| m.0.iter().flatten().all(|x| x.is_finite());
-        finite(&self.matrix) && finite(&self.error)
-    }
-}
 
 #[cfg(test)]
 mod tests;

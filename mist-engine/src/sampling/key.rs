@@ -1,6 +1,6 @@
 //! Key that distinguishes layouts.
 
-use super::{Outlines, PlaneSampling, SamplingRule, adaptive::Accuracy};
+use super::{Outlines, PlaneSampling, SamplingRule, accuracy::Accuracy};
 use crate::region::Region;
 
 /// Equal for layouts with the same directions: the bits of all numbers that define them.

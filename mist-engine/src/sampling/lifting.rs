@@ -2,10 +2,26 @@
 //! are kept or left several at once, by the cells of the region's polygon.
 
 use glam::{DVec2, DVec3};
-use scattering::lanes::{LaneKernel, Real, SimdLevel, WIDTH, dispatch};
+use scattering::{
+    Direction,
+    lanes::{LaneKernel, Real, SimdLevel, WIDTH, dispatch},
+};
 
-use super::{Membership, points::PlanePoints, projection::Projection};
-use crate::region::{AxisRotation, CellContent, PolygonCells};
+use super::{points::PlanePoints, projection::Projection};
+use crate::region::{AxisRotation, CellContent, Polygon, PolygonCells};
+
+/// Condition for a direction of the cone to belong to the region.
+#[derive(Clone, Debug)]
+pub(super) enum Membership {
+    /// Nothing: the region is the cone.
+    Cone,
+    /// To be inside of a polygon.
+    Polygon(Polygon),
+    /// To be outside of the cone with this axis and cosine.
+    Outside { axis: DVec3, cos: f64 },
+    /// The region is one direction, laid out without a cone.
+    One(Direction),
+}
 
 /// Unit vectors with their weights, part by part; there is room behind the last one.
 #[derive(Debug, Default)]

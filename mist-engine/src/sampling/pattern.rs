@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::{points::PlanePoints, truncated};
+use super::points::PlanePoints;
 
 /// Arrangement of the points of a disk.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,6 +127,16 @@ fn mixed(x: u64) -> u64 {
 /// A number in 0 ≤ u < 1 from the upper 53 bits.
 fn uniform(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// The whole part of `x` as C's (int) gives it on x86: i32::MIN where it does not fit.
+pub(crate) fn truncated(x: f64) -> i32 {
+    let whole = x.trunc();
+    if whole >= f64::from(i32::MIN) && whole <= f64::from(i32::MAX) {
+        whole as i32
+    } else {
+        i32::MIN
+    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! The numbers that the language gives to the rules (`integrationmode`) exist only in
 //! [`IntegrationMode::decode`].
 
-use super::{adaptive::Accuracy, projection::Projection};
+use super::{accuracy::Accuracy, projection::Projection};
 use crate::region::RegionError;
 
 /// Rule by which the directions of an integral are chosen.

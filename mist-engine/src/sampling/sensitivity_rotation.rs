@@ -1,4 +1,4 @@
-//! How a sensitivity, given at the centre of an aperture, is turned for the other directions.
+//! Rotation of a sensitivity from the centre of an aperture to the other directions.
 //!
 //! With c the centre and v the direction, both as unit vectors of the upper hemisphere, (s, p)
 //! of the centre is carried along to v in the plane of both; β is the angle between the carried

@@ -48,7 +48,7 @@ impl Family {
         self.classes().into_iter().find(|class| class.name == name)
     }
 
-    /// Whether the class called `name` is `base` or extends it, directly or indirectly.
+    /// True if the class called `name` is `base` or extends it, directly or indirectly.
     pub fn is_below(&self, name: &str, base: &str) -> bool {
         if name == base {
             return true;

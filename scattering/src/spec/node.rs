@@ -117,7 +117,7 @@ impl ParameterNode {
         Ok(self)
     }
 
-    /// Whether this build reproduces `defect`; a sound build notes a noticeable defect.
+    /// True if this build reproduces `defect`; a sound build notes a noticeable defect.
     pub fn reproduces(&self, defect: Defect) -> bool {
         match self.mode {
             Mode::Compat => true,

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use glam::DVec2;
 use scattering::lanes::Real;
 
-use super::{PolygonEdge, edges};
+use super::edge::{PolygonEdge, edges};
 
 /// Cells in rows and columns over the polygon, and one and a half more on each side: those of the
 /// margin hold no vertex.

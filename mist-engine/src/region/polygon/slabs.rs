@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{PolygonEdge, edge};
+use super::edge::{PolygonEdge, edge};
 
 /// An edge whose two ends lie on the same side of a point in x is never counted, so leaving it
 /// out changes no decision.

@@ -4,7 +4,7 @@
 //! nodes may lie beside it. But a ridge goes on from cell to cell, and where it has been seen, the
 //! cells have become fine.
 
-use super::{MeasuredCell, cell::CubatureCell};
+use super::cell::{CubatureCell, MeasuredCell};
 
 /// Largest ratio of the length of a cell to that of its neighbour: its eight nodes are no further
 /// apart than the shorter one is long.

@@ -6,7 +6,6 @@ use scattering::{
 };
 
 use super::{
-    MeasuredCell,
     gauss::{NODE, SIDE, WEIGHT, error, weighted},
     integrand::{Integrand, NodeDirections},
     rays::{PolarRay, Rays},
@@ -19,6 +18,15 @@ pub(super) struct CubatureCell {
     pub(super) interval: usize,
     pub(super) s: (f64, f64),
     pub(super) u: (f64, f64),
+}
+
+/// A cell with its part of the integral.
+pub(super) struct MeasuredCell {
+    pub(super) cell: CubatureCell,
+    pub(super) matrix: Mueller,
+    pub(super) error: Mueller,
+    /// True if the error along p is larger than that along t.
+    pub(super) along_p: bool,
 }
 
 /// Evaluations of a cell.

@@ -1,4 +1,4 @@
-//! What is integrated: R(β)ᵀ M cos θ as a function of the direction.
+//! The integrand R(β)ᵀ M cos θ as a function of the direction.
 
 use glam::DVec3;
 use scattering::{
@@ -7,7 +7,7 @@ use scattering::{
     models::LobeSupport,
 };
 
-use super::Estimate;
+use super::estimate::Estimate;
 use crate::{
     region::{PolarAngles, Region, unit},
     sampling::{seen_group, sensitivity_rotation::SensitivityRotation},
@@ -71,8 +71,8 @@ impl<'a> Integrand<'a> {
         Estimate { matrix: out[0] * direction.cos, error: Mueller::ZERO, evaluations: 1 }
     }
 
-    /// Where scattered light may gather, the likeliest direction first: where a mirror sends it
-    /// or a smooth face refracts it, and back to the source. Models that end behind a second face
+    /// Directions in which scattered light may be concentrated, the likeliest first: of a mirror,
+    /// of refraction by a smooth face, and back to the source. Models that end behind a second face
     /// have their angles outside of it.
     pub(super) fn gathering(&self) -> Vec<DVec3> {
         let (common, theta) = (self.model.common(), self.incidence.theta());
