@@ -49,7 +49,7 @@ const STORED: u64 = 1 << 18;
 /// The directions of a region with what an integral needs to know about them.
 #[derive(Clone, Debug)]
 pub struct Layout {
-    plan: Plan,
+    plan: LayoutPlan,
     stored: OnceLock<Vec<DirectionChunk>>,
 }
 
@@ -63,7 +63,7 @@ pub(crate) enum Scale {
 }
 
 #[derive(Clone, Debug)]
-struct Plan {
+struct LayoutPlan {
     pattern: PointPattern,
     projection: Projection,
     frame: AxisRotation,
@@ -100,7 +100,7 @@ impl Layout {
         plane: &PlaneSampling,
         seed: Option<u64>,
     ) -> Result<Self, RegionError> {
-        Ok(Self { plan: Plan::new(region, plane, seed)?, stored: OnceLock::new() })
+        Ok(Self { plan: LayoutPlan::new(region, plane, seed)?, stored: OnceLock::new() })
     }
 
     /// Stores the directions, unless there are too many.
@@ -171,7 +171,7 @@ impl Layout {
     }
 }
 
-impl Plan {
+impl LayoutPlan {
     fn new(region: &Region, plane: &PlaneSampling, seed: Option<u64>) -> Result<Self, RegionError> {
         if let Region::Differential { center } = region {
             return Ok(Self::single(Direction::new(center.0, center.1)));

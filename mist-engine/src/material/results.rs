@@ -48,7 +48,7 @@ impl ResultColumns {
 }
 
 /// One spectrum while it grows.
-struct Gathered {
+struct GroupedRow {
     leading: Vec<f64>,
     direction: [f64; 4],
     samples: Vec<(f64, [f64; 4])>,
@@ -82,7 +82,7 @@ pub fn table(
     let keys: Vec<usize> = (0..first).filter(|column| *column != wavelength).collect();
     let alpha = at("alpha").filter(|column| keys.contains(column));
 
-    let mut rows: Vec<Gathered> = Vec::new();
+    let mut rows: Vec<GroupedRow> = Vec::new();
     let mut places: HashMap<Vec<&str>, usize> = HashMap::new();
     let others: Vec<usize> =
         keys.iter().copied().filter(|column| !angles.contains(&Some(*column))).collect();
@@ -100,7 +100,7 @@ pub fn table(
                 }
                 let leading = others.iter().map(|column| row.number(*column));
                 let leading = leading.collect::<Result<_, _>>()?;
-                rows.push(Gathered { leading, direction, samples: Vec::new() });
+                rows.push(GroupedRow { leading, direction, samples: Vec::new() });
                 places.insert(key, rows.len() - 1);
                 rows.len() - 1
             }
@@ -113,7 +113,7 @@ pub fn table(
         rows[place].samples.push((if columns.nm { x } else { nm_from_um(x) }, stokes));
     }
     rows.iter_mut().for_each(|row| row.samples.sort_by(|a, b| a.0.total_cmp(&b.0)));
-    let nm = |row: &Gathered| row.samples.iter().map(|sample| sample.0).collect::<Vec<f64>>();
+    let nm = |row: &GroupedRow| row.samples.iter().map(|sample| sample.0).collect::<Vec<f64>>();
     let wavelengths = rows.first().map(nm).unwrap_or_default();
     if let Some(odd) = rows.iter().position(|row| nm(row) != wavelengths) {
         let problem = format!("spectrum {} has other wavelengths than the first one", odd + 1);
@@ -148,7 +148,7 @@ fn constant_alpha(
     alpha: Option<usize>,
     others: &[usize],
     leading: &mut Vec<String>,
-    rows: &mut [Gathered],
+    rows: &mut [GroupedRow],
 ) -> RowPatch {
     let place = alpha.and_then(|alpha| others.iter().position(|column| *column == alpha));
     let Some((place, first)) = place.zip(rows.first().map(|row| row.leading.clone())) else {
