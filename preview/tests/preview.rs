@@ -177,7 +177,7 @@ fn the_picture_is_the_same_on_one_thread_and_on_three() {
 }
 
 #[test]
-fn a_transmitting_model_and_a_wish_to_stop_are_refused() {
+fn a_transmitting_model_and_a_cancellation_are_refused() {
     let lamp = Lamp::at(0.3, 0.0, 0.0, 1.0);
     let scene = scene(BodyShape::Sphere, vec![lamp]);
     let through = r#"{"model":"Facet_BRDF_Model","parameters":{"substrate":"(1.5,0)","type":1}}"#;

@@ -27,14 +27,14 @@ const LAYOUTS: usize = 64;
 pub(super) struct Apertures<'j> {
     job: &'j Job,
     /// One for each integral.
-    seen: Vec<Seen>,
+    seen: Vec<ApertureSizes>,
     /// Directions of all integrals in all steps that were looked at.
     directions: f64,
     steps: f64,
 }
 
 #[derive(Default)]
-struct Seen {
+struct ApertureSizes {
     layouts: BTreeSet<LayoutKey>,
     /// The fewest directions, with the solid angle of the cone around the region and what a
     /// direction stands for.
@@ -51,7 +51,7 @@ struct Few {
 
 impl<'j> Apertures<'j> {
     pub(super) fn new(job: &'j Job) -> Self {
-        let seen = job.plan.integrals.iter().map(|_| Seen::default()).collect();
+        let seen = job.plan.integrals.iter().map(|_| ApertureSizes::default()).collect();
         Self { job, seen, directions: 0.0, steps: 0.0 }
     }
 
@@ -149,7 +149,7 @@ impl<'j> Apertures<'j> {
     }
 }
 
-impl Seen {
+impl ApertureSizes {
     /// Counts the directions of a layout that was not seen before.
     fn count(&mut self, integral: &StepIntegral, estimate: f64) -> Result<(), RegionError> {
         let is_area = !matches!(integral.region, Region::Differential { .. });

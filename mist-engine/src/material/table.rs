@@ -42,7 +42,7 @@ const ALBEDO: Accuracy = Accuracy { tolerance: 1e-6, budget: 400_000 };
 /// # Errors
 ///
 /// For requests that cannot be served, values that the model cannot take, limits, a model that
-/// is not finite somewhere, and a wish to stop.
+/// is not finite somewhere, and a cancellation.
 pub fn table(
     material: &PreparedMaterial,
     request: &TableRequest,
