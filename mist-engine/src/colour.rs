@@ -7,5 +7,5 @@ pub(crate) mod fold;
 pub mod section;
 pub mod table;
 
-pub use section::ColourSection;
+pub use crate::plan::ColourSection;
 pub use table::{Albedo, ColourRow, ColourTable, RowOrder, RowPatch, Symmetry, TableAxis};

@@ -19,12 +19,11 @@ pub(crate) use variables::initial_values;
 
 use crate::{
     DataFiles, Files, Job, Options,
-    colour::section::{self, ColourSection},
+    colour::section,
     graph::DependencyGraph,
     parameters::ModelParameters,
-    plan::{LoopPlan, OutputPlan, Plan, VariableEntry},
+    plan::{ColourSection, ErrorColumns, LoopPlan, OutputPlan, Plan, VariableEntry},
     quirk::dialect,
-    uncertainty::ErrorColumns,
 };
 use binder::Binder;
 use loops::LoopScope;

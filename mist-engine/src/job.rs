@@ -7,10 +7,9 @@ use scattering::{Class, Mode, ParameterError};
 
 use crate::{
     DataFiles, Limits,
-    colour::section::ColourSection,
     fault::{Fault, fault},
     graph::DependencyGraph,
-    plan::{ApertureParameter, LoopPlan, Plan},
+    plan::{ApertureParameter, ColourSection, LoopPlan, Plan},
     region::RegionError,
 };
 

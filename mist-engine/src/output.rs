@@ -11,9 +11,9 @@ use mist_format::{
 use crate::{
     Job,
     fault::{Fault, placed},
+    plan::{ErrorColumn, ErrorColumns},
     slots::SlotValues,
     step::{COLUMN_DIGITS, Evaluated, LoopCell, Step},
-    uncertainty::{ErrorColumn, ErrorColumns},
     values::NodeValues,
 };
 

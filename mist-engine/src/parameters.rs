@@ -13,6 +13,7 @@ mod error;
 mod films;
 mod formula;
 mod index;
+mod input;
 mod object;
 mod path;
 mod persistent;
@@ -21,57 +22,22 @@ mod state;
 mod table;
 
 pub use error::SetError;
+pub use input::ParameterInput;
 pub use path::ParameterPath;
+
+use input::ParameterContext;
 
 use mist_format::number;
 use object::ObjectState;
 use persistent::Persistent;
 use scattering::{Class, Mode, ParameterNode, spec::SharedNotices};
 
-use std::borrow::Cow;
-
 use crate::DataFiles;
-
-/// A new value of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ParameterInput<'a> {
-    /// A text, as a program or a material writes it.
-    Text(&'a str),
-    /// One number, or the elements of a vector such as (n,k); at least one.
-    Numbers(&'a [f64]),
-}
-
-impl<'a> ParameterInput<'a> {
-    /// The text that a program sends: numbers with sixteen digits.
-    pub(crate) fn to_text(self) -> Cow<'a, str> {
-        match self {
-            Self::Text(text) => Cow::Borrowed(text),
-            Self::Numbers(values) => Cow::Owned(number::list(values, number::TEXT_DIGITS)),
-        }
-    }
-}
 
 /// The state of a model's parameters.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ModelParameters {
     root: Persistent<ObjectState>,
-}
-
-/// The context in which a parameter is set.
-pub(crate) struct ParameterContext<'a> {
-    pub(crate) library: &'a DataFiles,
-    pub(crate) mode: Mode,
-    /// The wavelength for which the objects around were evaluated last, if any.
-    pub(crate) evaluated_at: Option<f64>,
-    /// Whether the parameter belongs to an object inside of the model.
-    pub(crate) is_nested: bool,
-}
-
-impl ParameterContext<'_> {
-    /// Whether numbers are stored as they are, not as their texts are read.
-    fn keeps_bits(&self, values: &[f64]) -> bool {
-        self.mode == Mode::Sound && values.iter().all(|x| x.is_finite())
-    }
 }
 
 impl ModelParameters {

@@ -8,16 +8,15 @@ use mist_format::{
     Program,
     expr::Expr,
     number::PrintfFormat,
-    program::{ApertureShape, ForLoop, ListLoop, SourceText},
+    program::{ApertureShape, ColourKey, ForLoop, ListLoop, SourceText},
     table::ListTable,
 };
 use scattering::{Basis, Class};
+use spectra::ColourSettings;
 
 use crate::{
-    colour::section::ColourSection,
     parameters::{ModelParameters, ParameterPath},
     slots::SlotNames,
-    uncertainty::ErrorColumns,
 };
 
 /// A compiled program.
@@ -198,6 +197,54 @@ pub(crate) struct OutputPlan {
     pub(crate) label: String,
     pub(crate) text: SourceText,
     pub(crate) expr: Expr,
+}
+
+/// The error of one integral as a column.
+pub(crate) struct ErrorColumn {
+    /// NAME.error.
+    pub(crate) title: String,
+    /// Where expressions find it.
+    pub(crate) slot: u32,
+    /// Position of the integral in the program.
+    pub(crate) integral: usize,
+    /// The output that it follows.
+    pub(crate) after: Option<usize>,
+}
+
+/// The columns of the errors of all integrals.
+pub(crate) struct ErrorColumns(pub(crate) Vec<ErrorColumn>);
+
+/// The section COLOR of a compiled program.
+pub struct ColourSection {
+    pub(crate) wavelength: PlacedExpression,
+    pub(crate) angles: [Option<PlacedExpression>; 4],
+    /// Slots of the output labels of I, Q, U, V.
+    pub(crate) spectrum: Vec<u32>,
+    /// Per loop, the first declared first: what it does to the table.
+    pub(crate) roles: Vec<LoopRole>,
+    pub(crate) settings: ColourSettings,
+    pub(crate) frame: String,
+    pub(crate) patch: String,
+    pub(crate) material: String,
+    pub(crate) place: SourceText,
+    pub(crate) files: Vec<(ColourKey, String)>,
+}
+
+/// An expression with its place.
+pub(crate) struct PlacedExpression {
+    pub(crate) text: Option<SourceText>,
+    pub(crate) expr: Expr,
+}
+
+/// What a loop does to the table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum LoopRole {
+    /// Its steps are wavelengths of one spectrum.
+    Folded,
+    /// Its steps are directions.
+    Direction,
+    /// Its value leads the row: names and slots.
+    Leading(Vec<(String, u32)>),
 }
 
 impl Plan {

@@ -6,16 +6,17 @@
 
 mod aperture;
 mod assemble;
+mod memo;
 mod parameters;
 
 use std::sync::Arc;
 
+use memo::ParameterMemo;
 use mist_format::{
     Diagnostic,
     expr::{Expr, Value},
     program::SourceText,
 };
-use parameters::ParameterMemo;
 use scattering::Mode;
 
 use crate::{

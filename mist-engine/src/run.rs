@@ -22,15 +22,13 @@ use crate::{
     limits::Meter,
     listing,
     output::{OutputStream, Outputs, Sink, TableLine, head},
+    plan::ErrorColumns,
     replay::Replay,
     step::{Evaluated, Step},
-    uncertainty::ErrorColumns,
 };
 
 /// Steps that are replayed before they are evaluated together.
 const BLOCK_STEPS: usize = 256;
-/// Evaluations after which a block is closed, so that progress is seen and a cancellation takes effect.
-const BLOCK_EVALUATIONS: f64 = 2e6;
 
 /// A block of a part should take about this long.
 const SHORT: Duration = Duration::from_millis(250);

@@ -3,46 +3,15 @@
 //! The last declared loop runs fastest. A loop does not set a variable but replaces the content
 //! of its entry in VARIABLES; the step evaluates the entry with that content.
 
+mod content;
 mod for_loop;
 mod list_loop;
 
-use std::sync::Arc;
+use crate::{fault::Fault, plan::LoopPlan, step::LoopCells};
+pub(crate) use content::{EntryContent, LoopContext, LoopWrite};
 
-use mist_format::expr::Value;
-use scattering::Mode;
-
-use crate::{
-    fault::Fault,
-    plan::{LoopPlan, Plan},
-    step::LoopCells,
-    values::NodeValues,
-};
 use for_loop::ForState;
 use list_loop::ListState;
-
-/// New content of an entry of VARIABLES.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct LoopWrite {
-    /// The entry.
-    pub(crate) entry: usize,
-    pub(crate) content: EntryContent,
-}
-
-/// The content of an entry of VARIABLES, in place of the program's.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum EntryContent {
-    /// A value.
-    Value(Value),
-    /// An expression, or a text for the model.
-    Text(Arc<str>),
-}
-
-/// The context in which loops evaluate their expressions.
-pub(crate) struct LoopContext<'a, 'j> {
-    pub(crate) plan: &'j Plan,
-    pub(crate) values: &'a mut NodeValues<'j>,
-    pub(crate) mode: Mode,
-}
 
 /// The position of a loop.
 pub(crate) enum LoopState {

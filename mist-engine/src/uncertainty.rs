@@ -4,22 +4,7 @@
 //! this integral and nothing else; errors of integrals that no output shows so stand after all
 //! outputs, in the order of the program. Expressions of outputs may use NAME.error.
 
-use crate::plan::{IntegralPlan, OutputPlan};
-
-/// The error of one integral as a column.
-pub(crate) struct ErrorColumn {
-    /// NAME.error.
-    pub(crate) title: String,
-    /// Where expressions find it.
-    pub(crate) slot: u32,
-    /// Position of the integral in the program.
-    pub(crate) integral: usize,
-    /// The output that it follows.
-    after: Option<usize>,
-}
-
-/// The columns of the errors of all integrals.
-pub(crate) struct ErrorColumns(Vec<ErrorColumn>);
+use crate::plan::{ErrorColumn, ErrorColumns, IntegralPlan, OutputPlan};
 
 impl ErrorColumns {
     /// One column per name of an integral.

@@ -9,7 +9,11 @@ use mist_format::{
     suggestion::did_you_mean,
 };
 
-use crate::{Job, colour::section::ColourSection, plan::LoopPlan, quirk::dialect};
+use crate::{
+    Job,
+    plan::{ColourSection, LoopPlan},
+    quirk::dialect,
+};
 
 /// Names that the language itself reads at every step.
 const READ_BY_ALL: [&str; 7] =

@@ -5,11 +5,13 @@ use std::collections::HashMap;
 use mist_format::Diagnostic;
 use spectra::{ColourPlan, Extrapolation, Grid, Xyz, wavelength::nm_from_um};
 
-use super::{
-    ColourRow, ColourSection, ColourTable, RowOrder, RowPatch,
-    section::{LoopRole, PlacedExpression},
+use super::{ColourRow, ColourSection, ColourTable, RowOrder, RowPatch};
+use crate::{
+    fault::Fault,
+    output::Outputs,
+    plan::{LoopRole, PlacedExpression},
+    step::Step,
 };
-use crate::{fault::Fault, output::Outputs, step::Step};
 
 /// A channel this far below zero still counts as inside the gamut: rounding.
 const GAMUT_SLACK: f64 = 1e-9;

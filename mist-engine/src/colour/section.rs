@@ -17,43 +17,10 @@ use spectra::{
 use crate::{
     DataFiles,
     fault::placed,
-    plan::{LoopPlan, OutputPlan, VariableEntry},
+    plan::{ColourSection, LoopPlan, LoopRole, OutputPlan, PlacedExpression, VariableEntry},
     quirk::dialect,
     slots::SlotNames,
 };
-
-/// The section COLOR of a compiled program.
-pub struct ColourSection {
-    pub(crate) wavelength: PlacedExpression,
-    pub(crate) angles: [Option<PlacedExpression>; 4],
-    /// Slots of the output labels of I, Q, U, V.
-    pub(crate) spectrum: Vec<u32>,
-    /// Per loop, the first declared first: what it does to the table.
-    pub(crate) roles: Vec<LoopRole>,
-    pub(crate) settings: ColourSettings,
-    pub(crate) frame: String,
-    pub(crate) patch: String,
-    pub(crate) material: String,
-    pub(crate) place: SourceText,
-    files: Vec<(ColourKey, String)>,
-}
-
-/// An expression with its place.
-pub(crate) struct PlacedExpression {
-    pub(crate) text: Option<SourceText>,
-    pub(crate) expr: Expr,
-}
-
-/// What a loop does to the table.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum LoopRole {
-    /// Its steps are wavelengths of one spectrum.
-    Folded,
-    /// Its steps are directions.
-    Direction,
-    /// Its value leads the row: names and slots.
-    Leading(Vec<(String, u32)>),
-}
 
 /// What the section is compiled with.
 pub(crate) struct ColourContext<'a> {

@@ -5,7 +5,7 @@ use mist_format::{
     suggestion::did_you_mean,
 };
 
-use super::Binder;
+use super::binder::Binder;
 use crate::{
     fault::fault,
     plan::{ApertureParameter, ApertureSetting, IntegralPlan},

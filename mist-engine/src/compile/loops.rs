@@ -11,7 +11,7 @@ use mist_format::{
     table::ListTable,
 };
 
-use super::Binder;
+use super::binder::Binder;
 use crate::{
     fault::fault,
     plan::{ForPlan, ListColumn, ListPlan, LoopPlan, VariableEntry},

@@ -3,7 +3,7 @@
 use mist_format::{program::SourceText, suggestion::did_you_mean};
 use scattering::{Class, registry};
 
-use super::Binder;
+use super::binder::Binder;
 use crate::fault::fault;
 
 /// The class of the model; an unknown one is noted.

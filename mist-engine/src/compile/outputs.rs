@@ -9,15 +9,13 @@ use mist_format::{
     program::{Loop, Output, SourceText},
 };
 
-use super::Binder;
+use super::binder::Binder;
 use crate::{
     DataFiles,
-    colour::section::ColourSection,
     fault::fault,
-    plan::{IntegralPlan, LoopPlan, OutputPlan, VariableEntry},
+    plan::{ColourSection, ErrorColumns, IntegralPlan, LoopPlan, OutputPlan, VariableEntry},
     sampling::IntegrationMode,
     slots::SlotNames,
-    uncertainty::ErrorColumns,
 };
 
 /// The outputs; expressions that are wrong are noted.

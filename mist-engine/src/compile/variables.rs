@@ -9,7 +9,7 @@ use mist_format::{
 };
 use scattering::Class;
 
-use super::Binder;
+use super::binder::Binder;
 use crate::{
     DataFiles,
     fault::placed,

@@ -5,7 +5,12 @@ use std::hash::{Hash, Hasher};
 use mist_format::optics::{self, OpticsError, StackText};
 use scattering::stack::Film;
 
-use super::{ParameterContext, ParameterInput, SetError, index::IndexState, source::TableSource};
+use super::{
+    error::SetError,
+    index::IndexState,
+    input::{ParameterContext, ParameterInput},
+    source::TableSource,
+};
 
 /// Films, the one next to the substrate first.
 #[derive(Clone, Debug, Default)]

@@ -8,7 +8,7 @@ use mist_format::{
 };
 use scattering::{optics::FormulaFn, spec::ParameterKind};
 
-use super::SetError;
+use super::error::SetError;
 use crate::DataFiles;
 
 /// A function of `x` with the text it came from.

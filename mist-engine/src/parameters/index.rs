@@ -11,7 +11,12 @@ use scattering::{
     spec::ParameterKind,
 };
 
-use super::{ParameterContext, ParameterInput, SetError, source::TableSource, table::TableState};
+use super::{
+    error::SetError,
+    input::{ParameterContext, ParameterInput},
+    source::TableSource,
+    table::TableState,
+};
 use crate::quirk::Quirk;
 
 /// An index of refraction: one table for n, one for k.

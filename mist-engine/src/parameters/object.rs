@@ -6,7 +6,10 @@ use mist_format::suggestion::did_you_mean;
 use scattering::{Class, Mode, ParameterNode, spec::SharedNotices};
 
 use super::{
-    ParameterContext, ParameterInput, SetError, path::RelativePath, state::ParameterState,
+    error::SetError,
+    input::{ParameterContext, ParameterInput},
+    path::RelativePath,
+    state::ParameterState,
 };
 
 /// Parameters that every class of NIST's library takes and that change nothing here.

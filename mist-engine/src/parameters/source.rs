@@ -12,7 +12,7 @@ use mist_format::{
 };
 use scattering::optics::{AbscissaScale, RealFunction, TableInterpolation};
 
-use super::{ParameterContext, SetError, formula::columns};
+use super::{error::SetError, formula::columns, input::ParameterContext};
 use crate::DataFiles;
 
 /// A function of one variable with several columns; column 2 is the first of them.

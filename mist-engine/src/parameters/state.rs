@@ -15,8 +15,14 @@ use scattering::{
 };
 
 use super::{
-    ParameterContext, ParameterInput, SetError, films::FilmsState, formula::FormulaState,
-    index::IndexState, object::ObjectState, path::RelativePath, persistent::Persistent,
+    error::SetError,
+    films::FilmsState,
+    formula::FormulaState,
+    index::IndexState,
+    input::{ParameterContext, ParameterInput},
+    object::ObjectState,
+    path::RelativePath,
+    persistent::Persistent,
     table::TableState,
 };
 use crate::quirk::Quirk;

@@ -13,7 +13,8 @@ use scattering::{
 };
 
 use super::{
-    ParameterContext, ParameterInput, SetError,
+    error::SetError,
+    input::{ParameterContext, ParameterInput},
     source::{Interpolation, TableSource},
 };
 

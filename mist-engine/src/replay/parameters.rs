@@ -1,54 +1,18 @@
 //! Sending of the entries' values to the model: only values that the entry has not sent before.
 
 use mist_format::expr::Value;
-use rustc_hash::FxHashMap;
 use scattering::Mode;
 
-use super::{Override, Replay};
+use super::{
+    Override, Replay,
+    memo::{SentNumber, SentState},
+};
 use crate::{
     fault::Fault,
-    parameters::{ModelParameters, ParameterInput},
+    parameters::ParameterInput,
     step::{Listing, ListingLine, SentInput},
     sweep::EntryContent,
 };
-
-/// The memo of the model's parameters: their states after the numbers that were sent. Loops send
-/// the same numbers again and again, and equal states are then the same object with the same hash.
-#[derive(Default)]
-pub(super) struct ParameterMemo(FxHashMap<SentNumber, SentState>);
-
-/// The largest number of states in a memo.
-const STATES: usize = 1 << 12;
-
-/// A number sent by an entry to parameters with a hash.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct SentNumber {
-    entry: usize,
-    bits: u64,
-    before: u64,
-}
-
-/// The parameters before and after a number was sent, and the input that was sent.
-#[derive(Clone)]
-struct SentState {
-    before: ModelParameters,
-    input: SentInput,
-    after: ModelParameters,
-}
-
-impl ParameterMemo {
-    /// The state after `sent` to the parameters `before`.
-    fn get(&self, sent: &SentNumber, before: &ModelParameters) -> Option<SentState> {
-        self.0.get(sent).filter(|state| state.before == *before).cloned()
-    }
-
-    fn insert(&mut self, sent: SentNumber, state: SentState) {
-        if self.0.len() >= STATES {
-            self.0.clear();
-        }
-        self.0.insert(sent, state);
-    }
-}
 
 impl Replay<'_> {
     /// Sends the text of an entry to the model.

@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::{BLOCK_EVALUATIONS, StepReader};
+use super::reader::{BLOCK_EVALUATIONS, StepReader};
 use crate::{
     Failure, Job,
     fault::at_step,

@@ -2,8 +2,10 @@
 
 use std::ops::Range;
 
-use super::BLOCK_EVALUATIONS;
 use crate::{Control, Failure, Job, fault::at_step, replay::Replay, sampling::Layout, step::Step};
+
+/// Evaluations after which a block is closed, so that progress is seen and a cancellation takes effect.
+pub(super) const BLOCK_EVALUATIONS: f64 = 2e6;
 
 /// Evaluations of an adaptive integral, about; it may be a thousand times more.
 const ADAPTIVE_EVALUATIONS: f64 = 2e4;

@@ -6,7 +6,7 @@
 use mist_format::{Diagnostic, number};
 use scattering::Mode;
 
-use super::{EntryContent, LoopContext, LoopWrite};
+use super::content::{EntryContent, LoopContext, LoopWrite};
 use crate::{fault::Fault, plan::ForPlan, quirk::Quirk, step::LoopCell};
 
 /// The position of a FOR loop.

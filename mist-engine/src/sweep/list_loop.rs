@@ -13,7 +13,7 @@ use mist_format::{
 };
 use scattering::Mode;
 
-use super::{EntryContent, LoopContext, LoopWrite};
+use super::content::{EntryContent, LoopContext, LoopWrite};
 use crate::{fault::Fault, plan::ListPlan, quirk::dialect, step::LoopCell};
 
 /// The position of a LIST loop.
