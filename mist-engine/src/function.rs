@@ -50,12 +50,14 @@ pub struct FunctionValues {
     pub rows: Vec<OutputRow>,
     /// The colours, if the program has a section COLOR.
     pub colour: Option<ColourTable>,
+    /// Whether the rows have the columns of the loops.
+    shows: bool,
 }
 
 /// A line of the results, unrounded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutputRow {
-    /// Contents of the columns of the loops.
+    /// The columns of the loops, unless only outputs were asked for.
     pub loops: Vec<String>,
     /// The outputs.
     pub outputs: Vec<f64>,
@@ -152,8 +154,25 @@ impl ProgramFunction {
     ///
     /// As [`Job::run`]; a value that the model cannot take is one of them.
     pub fn run(&self, values: &[f64], control: &Control) -> Result<FunctionValues, Failure> {
+        self.run_into(FunctionValues { shows: true, ..FunctionValues::default() }, values, control)
+    }
+
+    /// [`ProgramFunction::run`] without the columns of the loops.
+    ///
+    /// # Errors
+    ///
+    /// As [`Job::run`].
+    pub fn outputs(&self, values: &[f64], control: &Control) -> Result<FunctionValues, Failure> {
+        self.run_into(FunctionValues::default(), values, control)
+    }
+
+    fn run_into(
+        &self,
+        mut ran: FunctionValues,
+        values: &[f64],
+        control: &Control,
+    ) -> Result<FunctionValues, Failure> {
         let job = self.job.with_values(&self.variables, values).map_err(Failure::Program)?;
-        let mut ran = FunctionValues::default();
         let once = Control { cancel: control.cancel.clone(), progress: None };
         let colour = job.run(&mut ran, &once)?.colour;
         Ok(FunctionValues { colour, ..ran })
@@ -169,8 +188,15 @@ impl Sink for FunctionValues {
         false
     }
 
+    fn wants_loops(&self) -> bool {
+        self.shows
+    }
+
     fn row(&mut self, line: &TableLine) -> io::Result<()> {
-        let loops = line.loops().map(str::to_owned).collect();
+        let loops = match self.shows {
+            true => line.loops().map(str::to_owned).collect(),
+            false => Vec::new(),
+        };
         self.rows.push(OutputRow { loops, outputs: line.outputs().to_vec() });
         Ok(())
     }

@@ -39,6 +39,7 @@ pub(crate) fn push_parameter(text: &mut String, job: &Job, line: &ListingLine) {
     text.push_str(name);
     text.push_str(" to ");
     match &line.input {
+        _ if line.text.is_some() => text.push_str(line.text.as_deref().unwrap_or_default()),
         SentInput::Text(input) => text.push_str(input),
         SentInput::Value(value) => push_list(text, value.as_slice(), TEXT_DIGITS),
     }

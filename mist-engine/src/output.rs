@@ -42,6 +42,12 @@ pub trait Sink: Send {
         true
     }
 
+    /// Whether the columns of the loops are needed by [`Sink::row`]; if not, and the texts of the
+    /// results are not needed either, they are empty.
+    fn wants_loops(&self) -> bool {
+        true
+    }
+
     /// Takes a line of the results in its parts, after its text was written.
     ///
     /// # Errors

@@ -64,6 +64,8 @@ pub struct Replay<'j> {
     output_values: Arc<[Option<Value>]>,
     index: u64,
     ended: bool,
+    /// Whether the columns of the loops are needed.
+    shows: bool,
 }
 
 impl<'j> Replay<'j> {
@@ -87,7 +89,19 @@ impl<'j> Replay<'j> {
             output_values: Arc::new([]),
             index: 0,
             ended: false,
+            shows: true,
         }
+    }
+
+    /// The same replay; without `shows` the columns of FOR loops are empty.
+    pub(crate) fn showing(mut self, shows: bool) -> Self {
+        self.shows = shows;
+        self
+    }
+
+    /// Whether the last step was made.
+    pub(crate) fn has_ended(&self) -> bool {
+        self.ended
     }
 
     /// The next step; none after the last one.
@@ -166,7 +180,7 @@ impl<'j> Replay<'j> {
 
     /// Goes to the next combination of loop values; false after the last one.
     fn move_loops(&mut self) -> Result<bool, Fault> {
-        let mut context = context(self.job, &mut self.values);
+        let mut context = context(self.job, &mut self.values, self.shows);
         match &mut self.sweep {
             Some(sweep) => sweep.advance(&mut context),
             None => {
@@ -179,7 +193,7 @@ impl<'j> Replay<'j> {
     /// Writes the values of the loops into their entries.
     fn write_loops(&mut self) -> Result<(), Fault> {
         let Some(sweep) = &mut self.sweep else { return Ok(()) };
-        for written in sweep.write(&mut context(self.job, &mut self.values))? {
+        for written in sweep.write(&mut context(self.job, &mut self.values, self.shows))? {
             self.values.mark(written.entry);
             self.overrides[written.entry] = Some(Override::new(written.content));
         }
@@ -235,8 +249,12 @@ impl<'j> Replay<'j> {
 }
 
 /// The context in which the loops of `job` evaluate their expressions.
-fn context<'a, 'j>(job: &'j Job, values: &'a mut NodeValues<'j>) -> LoopContext<'a, 'j> {
-    LoopContext { plan: &job.plan, values, mode: job.options.mode }
+fn context<'a, 'j>(
+    job: &'j Job,
+    values: &'a mut NodeValues<'j>,
+    shows: bool,
+) -> LoopContext<'a, 'j> {
+    LoopContext { plan: &job.plan, values, mode: job.options.mode, shows }
 }
 
 /// The text that a loop wrote into an entry, compiled.

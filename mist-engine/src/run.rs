@@ -73,16 +73,20 @@ impl Job {
         control: &Control,
         journal: &mut dyn Journal,
     ) -> Result<RunSummary, Failure> {
-        sink.write(OutputStream::Listing, &listing::head(self))?;
-        sink.write(OutputStream::Results, &head(self))?;
-        if self.samples_name().is_some() {
-            sink.write(OutputStream::Samples, listing::SAMPLES_HEAD)?;
+        for stream in [OutputStream::Listing, OutputStream::Results, OutputStream::Samples] {
+            let is_made = stream != OutputStream::Samples || self.samples_name().is_some();
+            if is_made && sink.wants(stream) {
+                sink.write(stream, &self.head(stream))?;
+            }
         }
         let mut runner = Runner::new(self, sink, control, journal);
         let colour = self.plan.colour.as_ref();
         runner.fold = colour.map(|section| Fold::new(section, self.initial_incident()));
         runner.steps()?;
-        runner.sink.write(OutputStream::Listing, &listing::tail(runner.summary.seconds))?;
+        if runner.sink.wants(OutputStream::Listing) {
+            let tail = listing::tail(runner.summary.seconds);
+            runner.sink.write(OutputStream::Listing, &tail)?;
+        }
         let Runner { fold, mut summary, .. } = runner;
         if let Some(fold) = fold {
             let table = fold.table().map_err(|fault| Failure::Program(vec![*fault]))?;
@@ -168,6 +172,8 @@ struct Runner<'a> {
     outputs: Outputs<'a>,
     /// The line that is being written.
     line: TableLine,
+    /// The part of the listing that is being written.
+    listing: String,
     fold: Option<Fold<'a>>,
     summary: RunSummary,
     /// The steps to be evaluated, unless all are.
@@ -193,6 +199,7 @@ impl<'a> Runner<'a> {
             shared: Evaluator::new(job, control),
             outputs,
             line: TableLine::default(),
+            listing: String::new(),
             fold: None,
             summary: RunSummary::default(),
             part: None,
@@ -203,13 +210,14 @@ impl<'a> Runner<'a> {
     /// All blocks.
     fn steps(&mut self) -> Result<(), Failure> {
         let started = Instant::now();
-        let mut reader = StepReader::new(self.job, self.control, self.part.clone());
+        let shows = self.sink.wants_loops() || self.sink.wants(OutputStream::Results);
+        let mut reader = StepReader::new(self.job, self.control, self.part.clone(), shows);
         if let Some(part) = &self.part {
             reader.approach(part.start)?;
         }
         let first = reader.block(self.pace.min(FIRST_STEPS))?;
         self.summary.steps = if ParallelReplay::are_possible(&reader) {
-            let workers = ParallelReplay::after(reader, first.len());
+            let workers = ParallelReplay::after(reader, first.len(), shows);
             self.run_parallel(first, workers)?
         } else {
             self.run_sequential(first, reader)?
@@ -254,7 +262,7 @@ impl<'a> Runner<'a> {
         if self.fold.is_none() && self.job.graph.lines_independent {
             batch.fill(&all)?;
             for ((step, line), finished) in batch.lines().zip(&all) {
-                emit(self.job, self.sink, step, line, finished)?;
+                emit((self.job, self.sink), step, line, finished, &mut self.listing)?;
             }
         } else {
             for (step, finished) in steps.into_iter().zip(&all) {
@@ -385,7 +393,7 @@ impl<'a> Runner<'a> {
         if let Some(fold) = &mut self.fold {
             fold.add(step, &mut self.outputs).map_err(|fault| at_step(step.index, fault))?;
         }
-        emit(self.job, self.sink, step, &self.line, finished)
+        emit((self.job, self.sink), step, &self.line, finished, &mut self.listing)
     }
 
     /// What the journal has of the first steps of `block`.
@@ -446,18 +454,18 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Writes the part of `step` of the listing, its line and its samples.
+/// Writes the part of `step` of the listing, made in `text`, its line and its samples.
 fn emit(
-    job: &Job,
-    sink: &mut dyn Sink,
+    (job, sink): (&Job, &mut dyn Sink),
     step: &Step,
     line: &TableLine,
     finished: &StepResult,
+    text: &mut String,
 ) -> Result<(), Failure> {
     if !step.listing.is_empty() && sink.wants(OutputStream::Listing) {
-        let mut text = String::new();
-        step.listing.iter().for_each(|line| listing::push_parameter(&mut text, job, line));
-        sink.write(OutputStream::Listing, &text)?;
+        text.clear();
+        step.listing.iter().for_each(|line| listing::push_parameter(text, job, line));
+        sink.write(OutputStream::Listing, text)?;
     }
     if sink.wants(OutputStream::Results) {
         sink.write(OutputStream::Results, &line.text)?;

@@ -90,6 +90,8 @@ pub(crate) struct ListingLine {
     /// The entry of VARIABLES that sent it.
     pub(crate) entry: usize,
     pub(crate) input: SentInput,
+    /// The input as text, if it was made.
+    pub(crate) text: Option<Arc<str>>,
 }
 
 /// The input that an entry sent to the model.

@@ -82,7 +82,7 @@ impl<'j> Sweep<'j> {
             let at = if self.is_new { at } else { count - 1 - (at - first) };
             match (&self.plans[at], &mut self.states[at]) {
                 (LoopPlan::For(plan), LoopState::For(state)) => {
-                    state.write(plan, context.mode, &mut self.written);
+                    state.write(plan, (context.mode, context.shows), &mut self.written);
                 }
                 (LoopPlan::List(plan), LoopState::List(state)) => {
                     state.write(plan, context, &mut self.written)?;

@@ -134,7 +134,7 @@ fn sensitivity(
     let colours = |moved: f64| -> Result<(f64, ColourTable), ToleranceError> {
         let mut values = program.start().to_vec();
         values[at] = moved;
-        let ran = program.run(&values, control).map_err(|failure| {
+        let ran = program.outputs(&values, control).map_err(|failure| {
             let name = program.names()[at].clone();
             ToleranceError::Run { name, value: moved, failure }
         })?;

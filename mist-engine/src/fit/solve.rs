@@ -7,7 +7,10 @@ use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSide, MPSuccess};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::{Fit, FitError, FitSettings, Fitted, MeasuredTable, Residuals, covariance};
-use crate::{Control, Failure, function::ProgramFunction};
+use crate::{
+    Control, Failure,
+    function::{FunctionValues, OutputRow, ProgramFunction},
+};
 
 /// Residual where the program cannot be run: so large that the step is taken back, so small that
 /// its square is finite.
@@ -16,6 +19,9 @@ const REFUSED: f64 = 1e30;
 /// Changes of χ² and of the variables, relative, and cosines between residuals and derivatives,
 /// below which a minimum is reached.
 const REACHED: f64 = 1e-10;
+
+/// A way to run the program: with or without the columns of its loops.
+type RunFunction = fn(&ProgramFunction, &[f64], &Control) -> Result<FunctionValues, Failure>;
 
 /// A fit under way.
 pub(super) struct LeastSquares<'a> {
@@ -30,6 +36,9 @@ pub(super) struct LeastSquares<'a> {
     lines: Vec<usize>,
     runs: usize,
     iterations: usize,
+    /// The variables of the last run and its residuals: the solver asks again for the point that
+    /// it has accepted.
+    last: Option<(Vec<f64>, Vec<f64>)>,
     /// Why the fit cannot go on.
     broken: Option<FitError>,
 }
@@ -78,9 +87,10 @@ impl<'a> LeastSquares<'a> {
             lines: Vec::new(),
             runs: 0,
             iterations: 0,
+            last: None,
             broken: None,
         };
-        let rows = problem.run(&problem.start.clone())?;
+        let rows = problem.run(&problem.start.clone(), ProgramFunction::run)?;
         problem.lines = measured.locate(&rows, &program.titles()[0])?;
         Ok(problem)
     }
@@ -182,9 +192,9 @@ impl<'a> LeastSquares<'a> {
         self.program.names().iter().cloned().zip(values.iter().copied()).collect()
     }
 
-    fn run(&mut self, values: &[f64]) -> Result<Vec<crate::function::OutputRow>, FitError> {
+    fn run(&mut self, values: &[f64], how: RunFunction) -> Result<Vec<OutputRow>, FitError> {
         self.runs += 1;
-        match self.program.run(values, self.control) {
+        match how(self.program, values, self.control) {
             Ok(ran) => Ok(ran.rows),
             Err(Failure::Cancelled) => Err(FitError::Cancelled),
             Err(failure) => Err(FitError::Run { values: self.named(values), failure }),
@@ -193,7 +203,19 @@ impl<'a> LeastSquares<'a> {
 
     /// (measured − computed)/σ.
     fn residuals(&mut self, values: &[f64]) -> Result<Vec<f64>, FitError> {
-        let rows = self.run(values)?;
+        if let Some((known, residuals)) = &self.last
+            && known == values
+        {
+            return Ok(residuals.clone());
+        }
+        let residuals = self.computed_residuals(values)?;
+        self.last = Some((values.to_vec(), residuals.clone()));
+        Ok(residuals)
+    }
+
+    /// [`LeastSquares::residuals`] by a run of the program.
+    fn computed_residuals(&mut self, values: &[f64]) -> Result<Vec<f64>, FitError> {
+        let rows = self.run(values, ProgramFunction::outputs)?;
         let data = self.measured.data().iter().zip(&self.lines);
         data.map(|(datum, line)| {
             let computed = rows.get(*line).map_or(f64::NAN, |row| row.outputs[datum.output]);
@@ -219,7 +241,7 @@ impl<'a> LeastSquares<'a> {
         for end in ends {
             let mut moved = values.to_vec();
             moved[at] = end;
-            sides.push(self.residuals(&moved).map(|residuals| (end, residuals)));
+            sides.push(self.computed_residuals(&moved).map(|residuals| (end, residuals)));
         }
         let [below, above] = <[_; 2]>::try_from(sides).expect("two ends give two sides");
         let (below, above) = match (below, above) {

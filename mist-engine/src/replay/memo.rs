@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::{parameters::ModelParameters, step::SentInput};
+use crate::{parameters::ModelParameters, step::ListingLine};
 
 /// The memo of the model's parameters: their states after the numbers that were sent. Loops send
 /// the same numbers again and again, and equal states are then the same object with the same hash.
@@ -20,11 +20,11 @@ pub(super) struct SentNumber {
     pub(super) before: u64,
 }
 
-/// The parameters before and after a number was sent, and the input that was sent.
+/// The parameters before and after a number was sent, and its line of the listing.
 #[derive(Clone)]
 pub(super) struct SentState {
     pub(super) before: ModelParameters,
-    pub(super) input: SentInput,
+    pub(super) line: ListingLine,
     pub(super) after: ModelParameters,
 }
 

@@ -40,16 +40,17 @@ impl Replay<'_> {
         });
         let Some(sent) = sent else { return self.send(at, self.input(value), listing) };
         if let Some(known) = self.memo.get(&sent, &self.parameters) {
-            if self.is_new(at, &known.input) {
+            if self.is_new(at, &known.line.input) {
                 self.parameters = known.after;
-                self.note_sent(at, known.input, listing);
+                self.note_sent(known.line, listing);
             }
             return Ok(());
         }
-        let (before, input) = (self.parameters.clone(), self.input(value));
+        let (before, text) = (self.parameters.clone(), value.to_text().into());
+        let input = self.input(value);
         self.send(at, input.clone(), listing)?;
-        let after = self.parameters.clone();
-        self.memo.insert(sent, SentState { before, input, after });
+        let line = ListingLine { entry: at, input, text: Some(text) };
+        self.memo.insert(sent, SentState { before, line, after: self.parameters.clone() });
         Ok(())
     }
 
@@ -95,12 +96,12 @@ impl Replay<'_> {
             self.sent[*inside] = None;
             self.values.mark(*inside);
         }
-        self.note_sent(at, input, listing);
+        self.note_sent(ListingLine { entry: at, input, text: None }, listing);
         Ok(())
     }
 
-    fn note_sent(&mut self, at: usize, input: SentInput, listing: &mut Listing) {
-        let line = ListingLine { entry: at, input };
+    fn note_sent(&mut self, line: ListingLine, listing: &mut Listing) {
+        let at = line.entry;
         listing.push(line.clone());
         self.sent[at] = Some(line);
     }

@@ -54,13 +54,15 @@ impl<'a> ParallelReplay<'a> {
 
     /// One worker per thread for the steps behind `reader`, which has read a first block of `count`
     /// steps.
-    pub(super) fn after(reader: StepReader<'a>, count: usize) -> Self {
+    pub(super) fn after(reader: StepReader<'a>, count: usize, shows: bool) -> Self {
         let (job, threads) = (reader.job, rayon::current_num_threads());
         let worker = |reader| ReplayWorker { reader, steps: Vec::new() };
         let cost = reader.cost / count.max(1) as f64;
         let (control, part, next) = (reader.control, reader.part.clone(), reader.next);
         let mut workers = vec![worker(reader)];
-        workers.extend((1..threads).map(|_| worker(StepReader::new(job, control, part.clone()))));
+        workers.extend(
+            (1..threads).map(|_| worker(StepReader::new(job, control, part.clone(), shows))),
+        );
         Self { workers, next, cost, each: count.max(1) }
     }
 

@@ -27,12 +27,22 @@ pub(super) struct StepReader<'a> {
 }
 
 impl<'a> StepReader<'a> {
-    pub(super) fn new(job: &'a Job, control: &'a Control, part: Option<Range<u64>>) -> Self {
-        Self { job, control, replay: Replay::new(job), part, next: 0, cost: 0.0 }
+    /// At the beginning of `job`; `shows` as for [`Replay::showing`].
+    pub(super) fn new(
+        job: &'a Job,
+        control: &'a Control,
+        part: Option<Range<u64>>,
+        shows: bool,
+    ) -> Self {
+        let replay = Replay::new(job).showing(shows);
+        Self { job, control, replay, part, next: 0, cost: 0.0 }
     }
 
     /// The steps of the next block, at most `most`; empty behind the last step.
     pub(super) fn block(&mut self, most: usize) -> Result<Vec<Step>, Failure> {
+        if self.replay.has_ended() {
+            return Ok(Vec::new());
+        }
         let mut block = Vec::with_capacity(most);
         self.add(&mut block, most, BLOCK_EVALUATIONS)?;
         Ok(block)

@@ -99,12 +99,17 @@ impl ForState {
         self.fraction
     }
 
-    /// Writes the value into its entry and its column.
-    pub(crate) fn write(&mut self, plan: &ForPlan, mode: Mode, written: &mut Vec<LoopWrite>) {
+    /// Writes the value into its entry and, if it `shows`, into its column.
+    pub(crate) fn write(
+        &mut self,
+        plan: &ForPlan,
+        (mode, shows): (Mode, bool),
+        written: &mut Vec<LoopWrite>,
+    ) {
         let bits = self.value.to_bits();
         let known = self.prepared.get(self.at).filter(|known| known.bits == bits).cloned();
         let PreparedValue { content, cell, .. } = known.unwrap_or_else(|| {
-            let prepared = PreparedValue::new(self.value, plan.is_text, mode);
+            let prepared = PreparedValue::new(self.value, plan.is_text, mode, shows);
             match self.prepared.get_mut(self.at) {
                 Some(known) => *known = prepared.clone(),
                 None if self.at < PREPARED => self.prepared.push(prepared.clone()),
@@ -121,14 +126,18 @@ impl PreparedValue {
     /// Under compat the entry gets the number that NIST's program reads in a text of sixteen
     /// digits. A value that is not finite is written as text, which is no number: the step is
     /// refused.
-    fn new(x: f64, is_text: bool, mode: Mode) -> Self {
+    fn new(x: f64, is_text: bool, mode: Mode, shows: bool) -> Self {
         let number = match mode {
             _ if is_text => None,
             Mode::Compat => number::reread(x),
             Mode::Sound => Some(x).filter(|x| x.is_finite()),
         };
         let text = || number::loop_text(x);
-        let cell = if is_text { LoopCell::Text(text().into()) } else { LoopCell::of(x) };
+        let cell = match shows {
+            true if is_text => LoopCell::Text(text().into()),
+            true => LoopCell::of(x),
+            false => LoopCell::Text("".into()),
+        };
         let content = number
             .map_or_else(|| EntryContent::Text(text().into()), |x| EntryContent::Value(x.into()));
         Self { bits: x.to_bits(), content, cell }
