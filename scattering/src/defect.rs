@@ -36,7 +36,8 @@ pub enum Defect {
     GammaNorm,
     /// The Zernike expansion computes λ² for λ³.
     ZernikePower,
-    /// The triangular pyramid's spectral density is 0 on the lines f_x = ±√3 f_y.
+    /// The triangular pyramid's spectral density is 0 around the lines f_x = ±√3 f_y and, for small
+    /// pyramids, nearly everywhere.
     PyramidLines,
     /// Kubelka–Munk overflows to NaN for opaque layers.
     KubelkaOverflow,
@@ -76,6 +77,12 @@ pub enum Defect {
     CleanlinessDigits,
     /// Mie's recurrence starts too low for large spheres.
     MieStart,
+    /// The series of large spheres ends before it has converged.
+    SeriesLength,
+    /// The image of a particle in its substrate is integrated with too few nodes.
+    ImageNodes,
+    /// A spectral density that is interpolated below zero counts as its absolute value.
+    NegativeSpectrum,
 }
 
 impl Defect {
@@ -101,7 +108,10 @@ impl Defect {
             Self::RayleighPhase => ("B6", "the phase of the sphere's amplitudes is wrong"),
             Self::GammaNorm => ("B6", "the modified gamma distribution integrates to 2"),
             Self::ZernikePower => ("B6", "the wavelength power 3 is computed as 2"),
-            Self::PyramidLines => ("B6", "the triangular pyramid's spectrum vanishes on two lines"),
+            Self::PyramidLines => (
+                "B30",
+                "the spectrum of triangular pyramids vanishes on lines and for small pyramids",
+            ),
             Self::KubelkaOverflow => ("B7", "an opaque Kubelka-Munk layer gives nan"),
             Self::IndexText => ("B8", "the text of an index is read as another index or file"),
             Self::SumAbsorbing => {
@@ -140,6 +150,15 @@ impl Defect {
             }
             Self::MieStart => {
                 ("-", "amplitudes of spheres much larger than the wavelength are off by 1e-5")
+            }
+            Self::SeriesLength => {
+                ("-", "the series of spheres much larger than the wavelength ends too early")
+            }
+            Self::ImageNodes => {
+                ("-", "the image of the particle in its substrate is integrated with few nodes")
+            }
+            Self::NegativeSpectrum => {
+                ("-", "a spectral density below zero between its points counts as positive")
             }
         }
     }

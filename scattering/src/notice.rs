@@ -24,6 +24,11 @@ pub enum ModelLimit {
     LostBetweenFlakes,
     /// A phase matrix gives light more polarization than intensity.
     Unrealizable,
+    /// Multipoles of a particle have converged to this part of their size only.
+    Unconverged {
+        /// The relative error of the amplitudes, 10⁻⁶.
+        millionths: u32,
+    },
 }
 
 impl ModelLimit {
@@ -41,6 +46,10 @@ impl ModelLimit {
             Self::LostBetweenFlakes => {
                 "more than a twentieth of the light is lost between flakes: raise correlation or \
                  lower flake_density"
+            }
+            Self::Unconverged { .. } => {
+                "the multipoles of the particle have not converged: a smaller, rounder or smoother \
+                 body does"
             }
             Self::Unrealizable => {
                 "scattered light has more polarization than intensity at some angles: lower plmax, \
@@ -69,6 +78,11 @@ impl fmt::Display for Notice {
                 f,
                 "this run meets a defect of NIST's library and has the sound value (--compat \
                  reproduces NIST's) [{defect}]"
+            ),
+            Self::Limit(ModelLimit::Unconverged { millionths }) => write!(
+                f,
+                "the multipoles of the particle have converged to {:.0e} of their amplitudes only",
+                f64::from(*millionths) * 1e-6
             ),
             Self::Limit(limit) => f.write_str(limit.describe()),
         }

@@ -16,7 +16,7 @@ pub mod indented_ellipsoid;
 mod outline;
 pub mod table;
 
-pub use family::{FAMILY, Shape, SurfaceNode};
+pub use family::{FAMILY, Shape, Spheroid, SurfaceNode};
 pub(crate) use family::{RENORM, SHAPE, points};
 
 /// All of them, in the order they are listed to users.

@@ -2,6 +2,7 @@
 
 pub mod bessel;
 pub(crate) mod erf;
+pub mod extended;
 pub mod gauss;
 pub mod harmonics;
 pub mod laguerre;

@@ -11,10 +11,12 @@
 //! *Scattering, Absorption, and Emission of Light by Small Particles* (Cambridge, 2002).
 
 mod blocks;
+pub(crate) mod converged;
 pub mod ebcm;
+pub mod spheroid;
 pub mod waves;
 
-pub(crate) use blocks::{BODY, MULTIPOLES, apply, is_finite, l_max, read, solve};
+pub(crate) use blocks::{BODY, MULTIPOLES, apply, is_finite, l_max, m_max, read, solve, terms};
 pub use blocks::{MOST, TMatrix};
 
 pub use crate::special::matrix::ComplexMatrix;

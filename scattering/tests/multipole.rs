@@ -252,7 +252,8 @@ fn harmonics_are_paired_wrongly_in_compat_with_few_orders_only() {
     let (few, met) = difference(4);
     assert!(few > 1e-6 && few < 1e-1 && met, "{few:e}");
     let (all, met) = difference(0);
-    assert!(all < 1e-12 && !met, "{all:e}");
+    // What is left is that of the nodes of the image and of the orders.
+    assert!(all < 1e-4 && !met, "{all:e}");
     // Orders beyond the fourth hardly count for this particle.
     let ((four, _), (six, _)) = (m(Mode::Sound, 4), m(Mode::Sound, 6));
     assert!((four - six).largest() < 1e-6 * six.largest());

@@ -7,7 +7,7 @@ use reference::{TOLERANCE, assert_close, component_node, components, number};
 use scattering::{
     Mode,
     distribution::Distribution,
-    scatterer::{CrossSections, Scatterer},
+    scatterer::{CrossSections, Scatterer, layered, series::MieSeries},
     spec,
 };
 use serde_json::Value as Json;
@@ -56,5 +56,35 @@ fn densities_of_diameters_agree_with_the_library() {
         let distribution = spec::build::<dyn Distribution>(&node).unwrap();
         let got = distribution.density(number(&check["d"]));
         assert_close(got, number(&check["value"]), TOLERANCE, check);
+    }
+}
+
+/// Amplitudes to 10⁻⁹ where the core holds nearly a whole number of half waves of the coat, against
+/// 50 digits (`tests/reference/coated.py`).
+#[test]
+fn coated_spheres_are_right_where_a_function_of_the_coat_vanishes_at_the_core() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/coated.json");
+    let file: Json = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let k = std::f64::consts::TAU / number(&file["lambda"]);
+    let cases = file["cases"].as_array().unwrap();
+    assert_eq!(cases.len(), 288);
+    for case in cases {
+        let index = |json: &Json| Complex64::new(number(&json[0]), number(&json[1]));
+        let mut r = number(&case["core"][2]);
+        let mut layers = vec![(index(&case["core"]), k * r)];
+        for coat in case["coats"].as_array().unwrap() {
+            r += number(&coat[2]);
+            layers.push((index(coat), k * r));
+        }
+        let x = k * r;
+        let series =
+            MieSeries::new(&layered::coefficients(&layers, (x + 5.0 * x.cbrt()) as usize + 11));
+        let extinction = series.cross_sections(k).extinction / (std::f64::consts::PI * r * r);
+        assert_close(extinction, number(&case["extinction"]), 1e-9, case);
+        let (s1, s2) = series.amplitudes(number(&file["angle"]).cos());
+        for (got, name) in [(s1, "s1"), (s2, "s2")] {
+            let expected = complex(&case[name]);
+            assert!((got - expected).norm() < 1e-9 * expected.norm(), "{name} {got} of {case}");
+        }
     }
 }

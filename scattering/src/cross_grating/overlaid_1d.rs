@@ -1,7 +1,7 @@
 //! Two line gratings, one over the other, their lines at an angle.
 //!
-//! The upper one varies along axis 2 (its lines run along axis 1), the lower one along axis 1;
-//! ζ = 90° − `angle`, and both periods are measured across the lines.
+//! The upper one varies along axis 1 (its lines run along axis 2), the lower one along axis 2;
+//! ζ = 90° − `angle`, and both periods are measured across the lines: d = period / sin `angle`.
 //!
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
@@ -30,7 +30,7 @@ pub const SPEC: Spec<dyn CrossGrating> = Spec {
         name: "Overlaid_1D_CrossGrating",
         parent: "CrossGrating",
         summary: "Two line gratings at an angle",
-        equation: "top along axis 2 over separation over bottom along axis 1",
+        equation: "top along axis 1 over separation over bottom along axis 2",
         source: "li-1997",
         params: &[MEDIA, OWN],
         laws: Laws::NONE,
@@ -71,20 +71,20 @@ impl CrossGrating for Overlaid1D {
         same("bottom.medium_i", bottom.above, top.below)?;
         self.media.ends_with(lambda, "bottom.medium_t", bottom.below)?;
         let between = LinePattern::uniform(GratingMaterial::from_index(top.below), bottom.period);
-        let between = CrossSlice::new(self.separation, CrossPattern::Along1(between));
+        let between = CrossSlice::new(self.separation, CrossPattern::Along2(between));
         let lower = bottom
             .slices
             .into_iter()
-            .map(|slice| CrossSlice::new(slice.thickness, CrossPattern::Along1(slice.pattern)));
+            .map(|slice| CrossSlice::new(slice.thickness, CrossPattern::Along2(slice.pattern)));
         let slices = top
             .slices
             .into_iter()
-            .map(|slice| CrossSlice::new(slice.thickness, CrossPattern::Along2(slice.pattern)))
+            .map(|slice| CrossSlice::new(slice.thickness, CrossPattern::Along1(slice.pattern)))
             .chain((self.separation > 0.0).then_some(between))
             .chain(lower)
             .collect();
         let cos = self.zeta.cos();
-        let lattice = Lattice { d1: bottom.period / cos, d2: top.period / cos, zeta: self.zeta };
+        let lattice = Lattice { d1: top.period / cos, d2: bottom.period / cos, zeta: self.zeta };
         Ok(self.media.profile(lambda, lattice, slices))
     }
 }

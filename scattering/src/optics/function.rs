@@ -117,7 +117,22 @@ impl RealFunction {
         constant.into_iter().chain(points.iter().map(|point| point.1))
     }
 
-    /// True if there is a number between any two points.
+    /// Whether it is negative at a point or, for a spline, anywhere between two points.
+    pub(crate) fn dips_below_zero(&self) -> bool {
+        /// Places that are looked at between two points.
+        const STEPS: u32 = 32;
+        if self.ordinates().any(|value| value < 0.0) {
+            return true;
+        }
+        let Self::Points(p) = self else { return false };
+        let between = |pair: &[(f64, f64)]| {
+            let (from, to) = (pair[0].0, pair[1].0);
+            (1..STEPS).any(|i| self.at(from + (to - from) * f64::from(i) / f64::from(STEPS)) < 0.0)
+        };
+        p.rise == TableInterpolation::Spline && p.points.windows(2).any(between)
+    }
+
+    /// Whether there is a number between any two points.
     pub(crate) fn can_interpolate(&self) -> bool {
         let Self::Points(p) = self else { return true };
         let scaled = p.scaled.iter().flat_map(|point| [point.0, point.1]);

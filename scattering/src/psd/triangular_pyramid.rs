@@ -5,12 +5,13 @@
 //!
 //! λ falls from 1 at the centre to 0 at the edge; h is the height (or depth), D the number per
 //! area. The integrals are evaluated as divided differences, without the singular lines of the
-//! closed form. NIST's library returns 0 on the lines f_x = ±√3 f_y
-//! ([`Defect::PyramidLines`]).
+//! closed form. NIST's library returns 0 wherever its denominator
+//! 4π³|XY(3X⁴ − 10X²Y² + 3Y⁴)|, X and Y the frequencies times the side, is below 10⁻⁶ and it has no limit
+//! ([`Defect::PyramidLines`]): on the lines f_x = ±√3 f_y, and nearly everywhere for small pyramids.
 //!
 //! C. de Boor, *Divided differences*, Surveys in Approximation Theory 1, 46 (2005).
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex64;
 
@@ -54,13 +55,22 @@ pub struct TriangularPyramid {
     dark_lines: bool,
 }
 
-/// Scaled distance from a singular line within which NIST's library does not use its closed form.
+/// Where NIST's library leaves its closed form: the size of a factor or of the whole denominator.
 const NEAR_LINE: f64 = 1e-6;
+
+/// Whether NIST's library has nothing: its denominator is small and none of the factors for which it has
+/// a limit.
+fn is_dark(x: f64, y: f64) -> bool {
+    let (x2, y2) = (x * x, y * y);
+    let denominator = 4.0 * PI.powi(3) * x * y * (3.0 * x2 * x2 - 10.0 * x2 * y2 + 3.0 * y2 * y2);
+    let has_limit = [x, y, 3.0 * x2 - y2].into_iter().any(|factor| factor.abs() < NEAR_LINE);
+    denominator.abs() < NEAR_LINE && !has_limit
+}
 
 impl Psd for TriangularPyramid {
     fn density(&self, fx: f64, fy: f64) -> f64 {
         let (x, y) = (fx * self.side, fy * self.side);
-        if self.dark_lines && x.abs() > NEAR_LINE && (x * x - 3.0 * y * y).abs() < NEAR_LINE {
+        if self.dark_lines && is_dark(x, y) {
             return 0.0;
         }
         let foot = TAU / 12f64.sqrt() * y;
@@ -86,6 +96,17 @@ mod tests {
         // The sound spectrum is smooth across the line.
         let beside = 0.5 * (sound.density(fx, fy + 1e-4) + sound.density(fx, fy - 1e-4));
         assert!((sound.density(fx, fy) / beside - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn small_pyramids_are_dark_in_compat_only() {
+        let small = [("length", 0.02)];
+        let (sound, compat) = (build(NAME, Mode::Sound, &small), build(NAME, Mode::Compat, &small));
+        assert_eq!(compat.density(1.3, 0.9), 0.0);
+        let volume = 3f64.sqrt() / 12.0 * 0.02 * 0.02 * 0.01;
+        let expected = 0.01 * volume * volume;
+        assert!((sound.density(1.3, 0.9) / expected - 1.0).abs() < 1e-2);
+        assert!((compat.density(0.0, 0.9) / expected - 1.0).abs() < 1e-2);
     }
 
     #[test]

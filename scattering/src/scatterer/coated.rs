@@ -52,7 +52,11 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         let k = around.wave_number();
         let core = (sphere, k * (radius - thickness));
         let coat = (coating, k * radius);
-        let terms = terms(node, series::terms(k * radius))?;
+        let needed = match node.integer("nmax") {
+            0 => series::terms_for(node, k * radius),
+            _ => series::terms(k * radius),
+        };
+        let terms = terms(node, needed)?;
         Ok(Box::new(Mie::layered(around, &[core, coat], terms)))
     },
 };

@@ -1,37 +1,45 @@
 //! Mie coefficients of a sphere of any number of concentric layers.
 //!
-//! With the logarithmic derivatives D1 of ψ and D3 of ζ, the layer l of relative index m_l from
-//! x_{l−1} to x_l passes the derivatives H of its inner face to its outer one,
+//! The radial function of a multipole in the layer l of relative index m_l, from x_{l−1} to x_l, is
+//! a combination of ψ_n and ζ_n of m_l x. With its value v and slope u at the inner face, as pairs
+//! so that either may be zero, the pair at the outer face is
 //!
-//! $$ H_l = \frac{G_2 D_1(m_l x_l) - Q\,G_1 D_3(m_l x_l)}{G_2 - Q\,G_1}, \qquad
-//!    Q = \frac{\psi(m_l x_{l-1})/\zeta(m_l x_{l-1})}{\psi(m_l x_l)/\zeta(m_l x_l)} $$
+//! $$ \begin{pmatrix} u_l \\ v_l \end{pmatrix} =
+//!    G_\zeta \begin{pmatrix} \psi_n' \\ \psi_n \end{pmatrix}(m_l x_l)
+//!    - G_\psi \begin{pmatrix} \zeta_n' \\ \zeta_n \end{pmatrix}(m_l x_l), \qquad
+//!    G_f = m_l u_{l-1} f(m_l x_{l-1}) - m_{l-1} v_{l-1} f'(m_l x_{l-1}) $$
 //!
-//! where G_i = m_l H_{l−1} − m_{l−1} D_i(m_l x_{l−1}) for a_n (i = 1 with D1, 2 with D3) and with
-//! m_l and m_{l−1} exchanged for b_n; H_1 = D1(m_1 x_1). Outside
+//! for a_n, and with m_l and m_{l−1} exchanged for b_n. The core has (ψ_n', ψ_n). Outside
 //!
-//! $$ a_n = \frac{(H/m + n/x)\psi_n - \psi_{n-1}}{(H/m + n/x)\zeta_n - \zeta_{n-1}}, \qquad
-//!    b_n = \frac{(mH + n/x)\psi_n - \psi_{n-1}}{(mH + n/x)\zeta_n - \zeta_{n-1}} $$
+//! $$ a_n = \frac{(u/m + nv/x)\psi_n - v\psi_{n-1}}{(u/m + nv/x)\zeta_n - v\zeta_{n-1}}, \qquad
+//!    b_n = \frac{(mu + nv/x)\psi_n - v\psi_{n-1}}{(mu + nv/x)\zeta_n - v\zeta_{n-1}} $$
 //!
-//! One layer is the homogeneous sphere. Q is a ratio that neither overflows nor loses digits for
-//! thick absorbing layers.
+//! One layer is the homogeneous sphere. The functions carry their powers of two and of e^{iz}
+//! separately, so that thick absorbing layers neither overflow nor lose digits, and no quotient
+//! is taken of a function that can vanish.
 //!
 //! W. Yang, Appl. Opt. 42, 1710 (2003); C. F. Bohren and D. R. Huffman, *Absorption and
 //! Scattering of Light by Small Particles* (Wiley, 1983), chapter 4 and 8.1.
 
 use num_complex::Complex64;
 
-use crate::special::riccati;
+use crate::special::riccati::{self, Scaled};
 
 /// A layer: its index relative to the medium outside, and the size parameter of its outer face.
 pub type SphereShell = (Complex64, f64);
 
-/// Derivatives (H^a_n, H^b_n) at the outer face of the layers passed so far.
-type FaceDerivatives = Vec<(Complex64, Complex64)>;
+/// Slope u and value v of a radial function, up to a common factor.
+type SlopeAndValue = (Complex64, Complex64);
 
-/// (a_n, b_n) of the homogeneous sphere `layer` for n = 1 … `terms`, with D1 started at the order
-/// `from` > `terms`.
+/// The pairs for a_n and for b_n at the outer face of the layers passed so far, by n.
+type FaceDerivatives = Vec<(SlopeAndValue, SlopeAndValue)>;
+
+/// (a_n, b_n) of the homogeneous sphere `layer` for n = 1 … `terms`, with ψ'/ψ started at the
+/// order `from` > `terms`.
 pub fn homogeneous(layer: SphereShell, terms: usize, from: usize) -> Vec<(Complex64, Complex64)> {
-    outside(layer, &core(layer, terms, from))
+    let slopes = riccati::log_derivatives(terms, layer.0 * layer.1, from);
+    let pair = |slope: Complex64| (slope, Complex64::ONE);
+    outside(layer, &slopes.into_iter().map(|d| (pair(d), pair(d))).collect())
 }
 
 /// (a_n, b_n) for n = 1 … `terms`; layers from the inside out, empty ones are passed over.
@@ -43,7 +51,7 @@ pub fn coefficients(layers: &[SphereShell], terms: usize) -> Vec<(Complex64, Com
     let mut inside: Option<(SphereShell, FaceDerivatives)> = None;
     for &layer in layers.iter().filter(|layer| layer.1 > 0.0) {
         let faces = match inside {
-            None => core(layer, terms, riccati::start(terms, layer.0 * layer.1)),
+            None => core(layer, terms),
             Some((inner, _)) if inner.1 >= layer.1 => continue,
             Some((inner, faces)) => shell(inner, layer, &faces),
         };
@@ -53,58 +61,60 @@ pub fn coefficients(layers: &[SphereShell], terms: usize) -> Vec<(Complex64, Com
     outside(outermost, &faces)
 }
 
-fn core((m, x): SphereShell, terms: usize, from: usize) -> FaceDerivatives {
-    riccati::log_derivatives(terms, m * x, from).into_iter().map(|d| (d, d)).collect()
+fn core((m, x): SphereShell, terms: usize) -> FaceDerivatives {
+    let psi = riccati::scaled_regular(terms, m * x);
+    psi.iter().map(|f| (f.slope, f.value)).map(|pair| (pair, pair)).collect()
 }
 
-fn derivatives(terms: usize, z: Complex64) -> Vec<Complex64> {
-    riccati::log_derivatives(terms, z, riccati::start(terms, z))
-}
-
-/// H at the outer face of the shell `layer` around `inner`.
+/// The pairs at the outer face of the shell `layer` around `inner`.
 fn shell(inner: SphereShell, (m, x): SphereShell, faces: &FaceDerivatives) -> FaceDerivatives {
     let (near, far) = (m * inner.1, m * x);
     let terms = faces.len() - 1;
-    let (d1_near, d1_far) = (derivatives(terms, near), derivatives(terms, far));
-    let d3_near = riccati::log_derivatives_outgoing(near, &d1_near);
-    let d3_far = riccati::log_derivatives_outgoing(far, &d1_far);
-    let mut q = first_ratio(near, far);
-    let mut out = faces.clone();
-    for n in 1..=terms {
-        let order = n as f64;
-        // ψ_n/ψ_{n−1} = z/(zD1_n + n) and ζ_n/ζ_{n−1} = (n − zD3_{n−1})/z.
-        q *= (inner.1 / x).powi(2)
-            * ((far * d1_far[n] + order) / (near * d1_near[n] + order))
-            * ((order - far * d3_far[n - 1]) / (order - near * d3_near[n - 1]));
-        let pass = |h: Complex64, with_h: Complex64, with_d: Complex64| {
-            let g1 = with_h * h - with_d * d1_near[n];
-            let g2 = with_h * h - with_d * d3_near[n];
-            (g2 * d1_far[n] - q * g1 * d3_far[n]) / (g2 - q * g1)
-        };
+    let (psi_near, psi_far) =
+        (riccati::scaled_regular(terms, near), riccati::scaled_regular(terms, far));
+    let (zeta_near, zeta_far) =
+        (riccati::scaled_outgoing(terms, near), riccati::scaled_outgoing(terms, far));
+    // ψ comes without e^{∓iz} and ζ without e^{±iz}, the signs such that the second one decays.
+    let sign = if far.im < 0.0 { -2.0 } else { 2.0 };
+    let decay = (sign * Complex64::I * (far - near)).exp();
+    let pass = |n: usize, (u, v): SlopeAndValue, with_u: Complex64, with_v: Complex64| {
+        let g = |f: &Scaled| with_u * u * f.value - with_v * v * f.slope;
+        let (psi, zeta) = (&psi_far[n], &zeta_far[n]);
+        let powers = psi_near[n].power + zeta.power - psi.power - zeta_near[n].power;
+        let (g_zeta, g_psi) = (g(&zeta_near[n]), g(&psi_near[n]) * decay * riccati::scale(powers));
+        unit((g_zeta * psi.slope - g_psi * zeta.slope, g_zeta * psi.value - g_psi * zeta.value))
+    };
+    let each = |n: usize| {
         let (a, b) = faces[n];
-        out[n] = (pass(a, m, inner.0), pass(b, inner.0, m));
-    }
-    out
+        (pass(n, a, m, inner.0), pass(n, b, inner.0, m))
+    };
+    (0..=terms).map(each).collect()
 }
 
-/// Q_0 = (ψ_0/ζ_0)(near)/(ψ_0/ζ_0)(far), with ψ_0/ζ_0 = (1 − e^{−2iz})/2.
-fn first_ratio(near: Complex64, far: Complex64) -> Complex64 {
-    // e^{−2iz} grows inwards to outwards: both terms times e^{2i far}.
-    let phase = |z: Complex64| (2.0 * Complex64::I * z).exp();
-    (phase(far) - phase(far - near)) / (phase(far) - 1.0)
+/// The pair over the larger of its sizes.
+fn unit((u, v): SlopeAndValue) -> SlopeAndValue {
+    let size = u.norm().max(v.norm()).recip();
+    if size.is_finite() { (u * size, v * size) } else { (u, v) }
 }
 
 fn outside((m, x): SphereShell, faces: &FaceDerivatives) -> Vec<(Complex64, Complex64)> {
+    /// An irregular function this large leaves nothing of a coefficient.
+    const NOTHING: f64 = 1e160;
     let (psi, chi) = riccati::real(faces.len() - 1, x);
-    let coefficient = |n: usize, y: Complex64| {
-        let factor = y + n as f64 / x;
-        let regular = factor * psi[n] - psi[n - 1];
-        let irregular = factor * chi[n] - chi[n - 1];
+    let coefficient = |n: usize, u: Complex64, v: Complex64| {
+        if chi[n].is_nan() || chi[n].abs() > NOTHING {
+            return Complex64::ZERO;
+        }
+        let factor = u + v * (n as f64 / x);
+        let regular = factor * psi[n] - v * psi[n - 1];
+        let irregular = factor * chi[n] - v * chi[n - 1];
         regular / (regular - Complex64::I * irregular)
     };
-    (1..faces.len())
-        .map(|n| (coefficient(n, faces[n].0 / m), coefficient(n, faces[n].1 * m)))
-        .collect()
+    let each = |n: usize| {
+        let (a, b) = faces[n];
+        (coefficient(n, a.0 / m, a.1), coefficient(n, b.0 * m, b.1))
+    };
+    (1..faces.len()).map(each).collect()
 }
 
 #[cfg(test)]

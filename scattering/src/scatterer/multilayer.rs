@@ -53,7 +53,7 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
             r += thickness;
             layers.push((index, k * r));
         }
-        Ok(Box::new(Mie::layered(around, &layers, series::terms(k * radius))))
+        Ok(Box::new(Mie::layered(around, &layers, series::terms_for(node, k * radius))))
     },
 };
 

@@ -48,7 +48,8 @@ pub const SPEC: Spec<dyn Scatterer> = Spec {
         let left = around.relative_index(node, "materialleft")?;
         let right = around.relative_index(node, "materialright")?;
         let radius = around.radius(node, &[left, right])?;
-        Ok(Box::new(OpticallyActive::new(around, left, right, radius)))
+        let terms = series::terms_for(node, around.wave_number() * radius);
+        Ok(Box::new(OpticallyActive::new(around, left, right, radius, terms)))
     },
 };
 
@@ -62,10 +63,16 @@ pub struct OpticallyActive {
 }
 
 impl OpticallyActive {
-    fn new(around: HostMedium, left: Complex64, right: Complex64, radius: f64) -> Self {
+    fn new(
+        around: HostMedium,
+        left: Complex64,
+        right: Complex64,
+        radius: f64,
+        terms: usize,
+    ) -> Self {
         let x = around.wave_number() * radius;
         let (mut diagonal, mut mixing) = (Vec::new(), Vec::new());
-        for (at, [a, b, c]) in coefficients(left, right, x, series::terms(x)).enumerate() {
+        for (at, [a, b, c]) in coefficients(left, right, x, terms).enumerate() {
             let n = (at + 1) as f64;
             diagonal.push((a, b));
             mixing.push(c * ((2.0 * n + 1.0) / (n * (n + 1.0))));
@@ -129,7 +136,7 @@ mod tests {
     fn equal_indices_are_the_inactive_sphere() {
         let m = Complex64::new(1.2, 0.01);
         let node = ParameterNode::with_defaults(&SPEC.class, Mode::Sound);
-        let active = OpticallyActive::new(AROUND, m, m, 0.4);
+        let active = OpticallyActive::new(AROUND, m, m, 0.4, 30);
         let mie = super::super::mie::Mie::homogeneous(&node, AROUND, m, 0.4);
         for cos in [-1.0, 0.2, 0.9] {
             let (a, b) = (active.amplitudes(cos), mie.amplitudes(cos));
@@ -141,8 +148,8 @@ mod tests {
     #[test]
     fn exchanged_indices_turn_the_other_way() {
         let (l, r) = (Complex64::new(1.2, 0.01), Complex64::new(1.23, 0.0));
-        let a = OpticallyActive::new(AROUND, l, r, 0.4).amplitudes(0.3);
-        let b = OpticallyActive::new(AROUND, r, l, 0.4).amplitudes(0.3);
+        let a = OpticallyActive::new(AROUND, l, r, 0.4, 30).amplitudes(0.3);
+        let b = OpticallyActive::new(AROUND, r, l, 0.4, 30).amplitudes(0.3);
         assert!((a.ps + b.ps).norm() < 1e-14 && a.ps.norm() > 1e-3);
         assert!((a.ss - b.ss).norm() < 1e-13);
     }

@@ -14,12 +14,27 @@ use std::f64::consts::{PI, TAU};
 use num_complex::Complex64;
 
 use super::CrossSections;
-use crate::Jones;
+use crate::{Defect, Jones, Mode, ParameterNode};
 
-/// The number of terms of a sphere of size parameter `x`.
+/// NIST's number of terms of a sphere of size parameter `x`.
 pub fn terms(x: f64) -> usize {
     // The exponent is NIST's; with 1/3 the number differs by one at isolated sizes.
     (x + 4.0 * x.powf(0.3333) + 2.0) as usize
+}
+
+/// A number of terms of a sphere of size parameter `x` beyond which nothing is left.
+///
+/// ψ_n/ζ_n is below exp(−1.88·8^{3/2}) = 10⁻¹⁸ eight widths x^{1/3} of the turning point above it.
+pub fn converged_terms(x: f64) -> usize {
+    (x + 8.0 * x.cbrt()) as usize + 12
+}
+
+/// The number of terms for size parameter `x` in the mode of `node`: as many as matter, or NIST's.
+pub fn terms_for(node: &ParameterNode, x: f64) -> usize {
+    // Terms that NIST's number leaves out are above 10⁻⁹ in spheres larger than this.
+    const SMALL: f64 = 30.0;
+    let library = node.mode == Mode::Compat || (x > SMALL && node.reproduces(Defect::SeriesLength));
+    if library { terms(x) } else { converged_terms(x) }
 }
 
 /// Coefficients of a sphere, prepared for sums over n.
@@ -38,6 +53,15 @@ impl MieSeries {
             ((a + b) * factor, (a - b) * factor)
         };
         Self { terms: coefficients.iter().enumerate().map(term).collect() }
+    }
+
+    /// The same without the terms at its end that are too small to change any sum.
+    pub fn trimmed(mut self) -> Self {
+        let size = |(plus, minus): &(Complex64, Complex64)| plus.norm() + minus.norm();
+        let largest = self.terms.iter().map(size).fold(0.0, f64::max);
+        let counts = |term| size(term) > 1e-22 * largest;
+        self.terms.truncate(self.terms.iter().rposition(counts).map_or(1, |last| last + 1));
+        self
     }
 
     /// The number of terms.

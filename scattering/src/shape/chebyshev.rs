@@ -2,7 +2,8 @@
 //!
 //! $$ r(\theta) = r_e(\theta)\left[1 + a\cos\left(n\pi\frac{\theta-\theta_0}{\theta_1-\theta_0}\right)\right] $$
 //!
-//! from θ_0 = `start` to θ_1 = `end`, and r_e beyond. The ends cut the outline into pieces.
+//! from θ_0 = `start` to θ_1 = `end`; beyond, the factor keeps its value at the end, 1 + a before
+//! and 1 + a cos(nπ) after. The ends cut the outline into pieces.
 //!
 //! A. Mugnai and W. J. Wiscombe, Appl. Opt. 25, 1235 (1986).
 
@@ -48,10 +49,13 @@ pub const SPEC: Spec<Shape> = Spec {
         let breaks = [0.0, start, end.min(PI), PI];
         let shape = Shape::sample(points(node)?, &breaks, |piece, theta| {
             let (r, slope) = ellipsoid::radius(theta, vertical, horizontal, 0.0);
-            if piece != 1 {
-                return (r, slope);
-            }
-            let (sin, cos) = (rate * (theta - start)).sin_cos();
+            let phase = match piece {
+                0 => 0.0,
+                1 => rate * (theta - start),
+                _ => waves * PI,
+            };
+            let (sin, cos) = phase.sin_cos();
+            let rate = if piece == 1 { rate } else { 0.0 };
             let factor = 1.0 + amplitude * cos;
             (r * factor, slope * factor - r * amplitude * rate * sin)
         });

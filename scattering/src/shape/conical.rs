@@ -1,7 +1,7 @@
 //! Upright cone with rounded edges.
 //!
-//! The origin lies at the centre of mass of the sharp cone, a quarter of the height over its base,
-//! when `offset` is 0. The base is down, unless `updown` is 1.
+//! The origin lies a third of the height less `offset` above the base. The base is down, unless
+//! `updown` is 1: that turns the body with its origin over.
 
 use super::{
     RENORM, SHAPE, Shape,
@@ -26,7 +26,12 @@ pub const SPEC: Spec<Shape> = Spec {
             &[
                 Parameter::number("radius", 0.05, "um", "Radius of the base"),
                 Parameter::number("height", 0.1, "um", "Height"),
-                Parameter::number("offset", 0.0, "um", "Centre of mass below the origin"),
+                Parameter::number(
+                    "offset",
+                    0.0,
+                    "um",
+                    "Origin below a third of the height over the base",
+                ),
                 Parameter::number("corner_base", 0.0, "um", "Radius of the edge of the base"),
                 Parameter::number("corner_apex", 0.0, "um", "Radius of the apex"),
                 Parameter::integer("updown", 0, "0 base down, 1 apex down"),
@@ -38,8 +43,7 @@ pub const SPEC: Spec<Shape> = Spec {
     build: |node| {
         let (radius, height) = (positive(node, "radius")?, positive(node, "height")?);
         let turned = node.integer("updown") != 0;
-        let offset = if turned { -node.number("offset") } else { node.number("offset") };
-        let base = 0.25 * height + offset;
+        let base = height / 3.0 - node.number("offset");
         let corners = [
             OutlineCorner::new(0.0, base, 0.0, "offset"),
             OutlineCorner::new(radius, base, node.number("corner_base"), "corner_base"),

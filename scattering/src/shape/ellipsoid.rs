@@ -1,11 +1,11 @@
 //! Ellipsoid of revolution with its centre moved along the axis.
 //!
 //! r(θ) is the positive root of ((r cos θ − o)/v)² + (r sin θ/h)² = 1, v and h the vertical and
-//! horizontal half axes, o the offset of the centre from the origin, downwards.
+//! horizontal half axes, o the height of the origin over the centre, −`offset`.
 
 use std::f64::consts::PI;
 
-use super::{SHAPE, Shape, points};
+use super::{SHAPE, Shape, Spheroid, points};
 use crate::{
     ParameterError,
     scatterer::positive,
@@ -23,7 +23,7 @@ pub const SPEC: Spec<Shape> = Spec {
         params: &[
             &SHAPE,
             &AXES,
-            &[Parameter::number("offset", 0.0, "um", "Centre below the origin of the multipoles")],
+            &[Parameter::number("offset", 0.0, "um", "Centre above the origin of the multipoles")],
         ],
         laws: Laws::NONE,
     },
@@ -34,7 +34,7 @@ pub const SPEC: Spec<Shape> = Spec {
             let problem = format!("{offset} um puts the origin outside of the ellipsoid");
             return Err(ParameterError::new("offset", problem));
         }
-        sampled(points(node)?, vertical, horizontal, offset).checked("vertical")
+        sampled(points(node)?, vertical, horizontal, -offset).checked("vertical")
     },
 };
 
@@ -46,7 +46,9 @@ pub(super) const AXES: [Parameter; 2] = [
 
 /// The ellipsoid at `points` nodes.
 pub(crate) fn sampled(points: usize, vertical: f64, horizontal: f64, offset: f64) -> Shape {
-    Shape::sample(points, &[0.0, PI], |_, theta| radius(theta, vertical, horizontal, offset))
+    let outline = |_, theta| radius(theta, vertical, horizontal, offset);
+    let spheroid = (offset == 0.0).then_some(Spheroid { vertical, horizontal });
+    Shape::sample(points, &[0.0, PI], outline).known_as(spheroid)
 }
 
 /// r and dr/dθ.

@@ -16,6 +16,23 @@ pub static FAMILY: Family =
 #[derive(Clone, Debug)]
 pub struct Shape {
     nodes: Vec<SurfaceNode>,
+    spheroid: Option<Spheroid>,
+}
+
+/// A spheroid with its centre at the origin, half axes in µm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spheroid {
+    /// Along the axis of revolution.
+    pub vertical: f64,
+    /// Across it.
+    pub horizontal: f64,
+}
+
+impl Spheroid {
+    /// The longer half axis over the shorter one.
+    pub fn aspect(&self) -> f64 {
+        (self.vertical / self.horizontal).max(self.horizontal / self.vertical)
+    }
 }
 
 /// A node of the outline.
@@ -61,7 +78,17 @@ impl Shape {
                 nodes.push(SurfaceNode { theta, weight, r, slope });
             }
         }
-        Self { nodes }
+        Self { nodes, spheroid: None }
+    }
+
+    /// The same, known to be this spheroid if it is one.
+    pub(crate) fn known_as(self, spheroid: Option<Spheroid>) -> Self {
+        Self { spheroid, ..self }
+    }
+
+    /// The spheroid that this is, if it is one about its centre.
+    pub fn spheroid(&self) -> Option<Spheroid> {
+        self.spheroid
     }
 
     /// The nodes, in rising order of θ.

@@ -1,9 +1,12 @@
-//! Ellipsoid of revolution with a smooth dent at one pole.
+//! Ellipsoid of revolution cut off by a plane near one pole.
 //!
-//! $$ r(\theta) = r_e(\theta) - d \cos^4(\theta_p/2) $$
+//! The plane lies d = `indent` from the pole, and the origin d/2 from the centre, away from it:
 //!
-//! with r_e the ellipsoid about the origin and θ_p the angle from the pole with the dent of the
-//! depth d: the upper one, or the lower one if `updown` is 1.
+//! $$ r(\theta) = \frac{v - d/2}{\cos\theta} \quad (\theta < \theta_0), \qquad
+//!    \tan\theta_0 = \frac{2h\sqrt{d\,(2 - d/v)}}{\sqrt{v}\,(2v - d)} $$
+//!
+//! with v and h the vertical and the horizontal half axes, and beyond θ_0 the ellipsoid whose centre
+//! lies d/2 from the origin. The flat face is down, or up if `updown` is 1.
 
 use std::f64::consts::PI;
 
@@ -14,13 +17,13 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// Name, parameters and constructor of an ellipsoid with a dent.
+/// How programs name, parameterize and build a cut ellipsoid.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Indented_Ellipsoid_Axisymmetric_Shape",
         parent: "Axisymmetric_Shape",
-        summary: "Ellipsoid of revolution with a dent at one pole",
-        equation: "r = r_ellipsoid - d cos^4(theta/2)",
+        summary: "Ellipsoid of revolution cut off by a plane",
+        equation: "r = (v - d/2)/cos theta on the flat face, the ellipsoid elsewhere",
         source: "mishchenko-2002",
         params: &[
             &SHAPE,
@@ -32,8 +35,8 @@ pub const SPEC: Spec<Shape> = Spec {
                     "um",
                     "Half axis across it; 0: the vertical one",
                 ),
-                Parameter::number("indent", 0.01, "um", "Depth of the dent"),
-                Parameter::integer("updown", 0, "0 dent on top, 1 dent below"),
+                Parameter::number("indent", 0.01, "um", "What the plane cuts off of the half axis"),
+                Parameter::integer("updown", 0, "0 flat face below, 1 on top"),
             ],
             &RENORM,
         ],
@@ -46,17 +49,22 @@ pub const SPEC: Spec<Shape> = Spec {
             _ => positive(node, "horizontal")?,
         };
         let depth = node.number("indent");
-        if !(depth.is_finite() && depth < vertical) {
-            let problem = format!("{depth} um is not less than the half axis {vertical} um");
+        if !(0.0..vertical).contains(&depth) {
+            let problem = format!("{depth} um is not from 0 to below the half axis {vertical} um");
             return Err(ParameterError::new("indent", problem));
         }
-        let dented = Shape::sample(points(node)?, &[0.0, PI], |_, theta| {
-            let (r, slope) = ellipsoid::radius(theta, vertical, horizontal, 0.0);
-            let (sin, cos) = (0.5 * theta).sin_cos();
-            (r - depth * cos.powi(4), slope + 2.0 * depth * cos.powi(3) * sin)
+        let face = vertical - 0.5 * depth;
+        let rim = horizontal * (depth * (2.0 - depth / vertical) / vertical).sqrt();
+        let edge = rim.atan2(face);
+        let cut = Shape::sample(points(node)?, &[0.0, edge, PI], |piece, theta| {
+            let (sin, cos) = theta.sin_cos();
+            match piece {
+                0 => (face / cos, face * sin / (cos * cos)),
+                _ => ellipsoid::radius(theta, vertical, horizontal, 0.5 * depth),
+            }
         });
         let volume = 4.0 / 3.0 * PI * horizontal * horizontal * vertical;
-        let dented = dented.renormalized(node, || volume);
-        if node.integer("updown") == 0 { dented.turned_over() } else { dented }.checked("indent")
+        let cut = cut.renormalized(node, || volume);
+        if node.integer("updown") == 0 { cut } else { cut.turned_over() }.checked("indent")
     },
 };

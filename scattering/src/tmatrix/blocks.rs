@@ -3,9 +3,12 @@
 use faer::linalg::solvers::Solve;
 use num_complex::Complex64;
 
-use super::waves::Multipole;
+use super::{
+    converged::{self, Orders},
+    waves::Multipole,
+};
 use crate::{
-    ParameterError, ParameterNode,
+    Mode, ParameterError, ParameterNode,
     shape::{self, Shape},
     spec::Parameter,
     special::{harmonics::Harmonics, matrix::ComplexMatrix},
@@ -61,32 +64,44 @@ pub(crate) fn l_max(node: &ParameterNode, needed: usize) -> Result<usize, Parame
 }
 
 /// The number of multipoles of a body of revolution of the size parameter `x`.
-fn terms(x: f64) -> usize {
+pub(crate) fn terms(x: f64) -> usize {
     (x + 4.05 * x.powf(0.3333) + 2.0) as usize
 }
 
 /// The T-matrix of the body `Shape` of `node`, of this index relative to the medium in which the
-/// wave number is `k` 1/µm, with `lmax` and `mmax`.
+/// wave number is `k` 1/µm, with `lmax` and `mmax`: as they say in compat, and in sound runs with as
+/// many more as it takes to converge.
 ///
 /// # Errors
 ///
-/// For numbers of multipoles that cannot be had.
+/// For numbers of multipoles that cannot be had, and in sound runs for those that do not converge.
 pub(crate) fn read(
     node: &ParameterNode,
     shape: &Shape,
     index: Complex64,
     k: f64,
 ) -> Result<TMatrix, ParameterError> {
-    let l_max = l_max(node, terms(k * shape.reach()))?;
-    let m_max = match node.integer("mmax") {
-        0 => l_max,
-        asked => usize::try_from(asked)
-            .map_err(|_| ParameterError::new("mmax", format!("{asked} is negative")))?
-            .min(l_max),
-    };
-    TMatrix::of_revolution(shape, index, k, l_max, m_max).ok_or_else(|| {
+    let (needed, m_max) = (terms(k * shape.reach()), m_max(node)?);
+    if node.mode == Mode::Sound {
+        let orders = Orders::read(node, needed)?;
+        let compute = |level| converged::at_level(node, shape, index, k, m_max, level);
+        return converged::converged(node, orders, compute, |a, b| {
+            converged::distance(a.blocks.iter().enumerate(), b.blocks.iter().enumerate())
+        });
+    }
+    let l_max = l_max(node, needed)?;
+    TMatrix::of_revolution(shape, index, k, l_max, m_max.min(l_max)).ok_or_else(|| {
         ParameterError::new("lmax", "too many multipoles for this body: they overflow")
     })
+}
+
+/// The largest m that the parameter `mmax` allows.
+pub(crate) fn m_max(node: &ParameterNode) -> Result<usize, ParameterError> {
+    match node.integer("mmax") {
+        0 => Ok(usize::MAX),
+        asked => usize::try_from(asked)
+            .map_err(|_| ParameterError::new("mmax", format!("{asked} is negative"))),
+    }
 }
 
 /// The parameters of a body of revolution.

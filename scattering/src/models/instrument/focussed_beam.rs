@@ -46,7 +46,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
             return Err(ParameterError::new("focal_point", format!("{focal_point} is not finite")));
         }
         let points = disk::points(node)?;
-        let mirrored = points.len() > 1 && node.reproduces(Defect::FocussedMirror);
+        let mirrored = node.number("alpha") != 0.0 && node.reproduces(Defect::FocussedMirror);
         Ok(Box::new(FocussedBeam { common, model, points, focal_point, mirrored }))
     },
 };

@@ -10,14 +10,17 @@
 
 use super::{
     LOCAL,
-    supported::{INTERACTION, SubstrateFace, SupportedParticle},
+    supported::{SubstrateFace, SupportedParticle, interaction},
 };
 use crate::{
     Defect, ParameterError, ParameterNode,
     models::{Brdf, COMMON, smooth_interface::INTERFACE},
     shape::Shape,
     spec::{Class, Laws, Parameter, Spec},
-    tmatrix::{self, BODY, MULTIPOLES},
+    tmatrix::{
+        self, BODY, MULTIPOLES,
+        converged::{self, Orders},
+    },
 };
 
 const EQUATION: &str = "F = N/(cos_i cos_s) M(J), J = -i sum W Z e^(i m phi), W = (T^-1 - A)^-1 V";
@@ -33,7 +36,7 @@ const PARAMS: &[&[Parameter]] = &[
     INTERFACE,
     &[Parameter::number("delta", 0.0, "um", "Gap between the particle and the face")],
     &MULTIPOLES,
-    &INTERACTION,
+    &interaction("Interaction with the face: 0 none, any other number exact, as NIST's library"),
 ];
 
 /// Name, parameters and constructor of a body of revolution on a substrate.
@@ -65,7 +68,7 @@ pub const SUBSURFACE: Spec<dyn Brdf> = Spec {
 };
 
 fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, ParameterError> {
-    let ground = SubstrateFace::read(node, buried)?;
+    let ground = SubstrateFace::read(node, buried)?.without_series();
     let shape = node.member::<Shape>("Shape")?;
     let index = node.index("particle").at(ground.common().lambda);
     if !(index.norm() > 0.0 && index.is_finite()) {
@@ -74,9 +77,23 @@ fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, Parame
             format!("{index} is not an index of refraction"),
         ));
     }
-    let particle = tmatrix::read(node, &shape, index / ground.medium, ground.k)?;
+    let relative = index / ground.medium;
+    if !node.reproduces(Defect::ImageNodes) {
+        let (k, m_max) = (ground.k, tmatrix::m_max(node)?);
+        let orders = Orders::read(node, tmatrix::terms(k * shape.reach()))?;
+        if m_max < orders.start() {
+            node.reproduces(Defect::AxisymmetricIndex);
+        }
+        let height = shape.spheroid().map_or(shape.height(), |spheroid| spheroid.vertical);
+        let particle = |level| {
+            let particle = converged::at_level(node, &shape, relative, k, m_max, level)?;
+            Some((particle, height))
+        };
+        return SupportedParticle::converged(ground, node, orders, particle);
+    }
+    let particle = tmatrix::read(node, &shape, relative, ground.k)?;
     let (l_max, incomplete) = (particle.l_max, particle.m_max() < particle.l_max);
-    let supported = SupportedParticle::new(ground, &particle, shape.height(), l_max)?;
+    let supported = SupportedParticle::as_the_library(ground, &particle, shape.height(), l_max)?;
     if incomplete && node.reproduces(Defect::AxisymmetricIndex) {
         return Ok(supported.mispairing());
     }

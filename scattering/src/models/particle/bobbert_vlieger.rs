@@ -11,15 +11,19 @@
 
 use super::{
     LOCAL,
-    supported::{INTERACTION, SubstrateFace, SupportedParticle},
+    supported::{SubstrateFace, SupportedParticle, interaction},
 };
 use crate::{
-    ParameterError, ParameterNode,
+    Defect, ParameterError, ParameterNode,
     models::{Brdf, COMMON, smooth_interface::INTERFACE},
     scatterer::{layered, positive, series},
     spec::{Class, Laws, Parameter, Spec},
     stack::{self, Stack},
-    tmatrix::{TMatrix, l_max},
+    tmatrix::{
+        TMatrix,
+        converged::{Level, Orders},
+        l_max,
+    },
 };
 
 const EQUATION: &str = "F = N/(cos_i cos_s) M(J), J = -i sum W Z e^(i m phi), W = (B^-1 - A)^-1 V";
@@ -50,7 +54,7 @@ const PARAMS: &[&[Parameter]] = &[
             "Largest l: 0 as the size needs, -n that and n more, n just n",
         ),
     ],
-    &INTERACTION,
+    &interaction("Interaction with the face: -1 exact, 0 none, n the first n terms of a series"),
 ];
 
 /// Name, parameters and constructor of a sphere on a substrate.
@@ -102,7 +106,12 @@ fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, Parame
         layers.push((relative("spherecoat", index)?, ground.k * r));
     }
     let needed = series::terms(ground.k * radius);
+    let sphere = |l_max: usize| TMatrix::sphere(&layered::coefficients(&layers, l_max));
+    if !node.reproduces(Defect::ImageNodes) {
+        let orders = Orders::read(node, needed)?;
+        let particle = |level: Level| Some((sphere(level.l_max), radius));
+        return SupportedParticle::converged(ground, node, orders, particle);
+    }
     let l_max = l_max(node, needed)?;
-    let sphere = TMatrix::sphere(&layered::coefficients(&layers, l_max));
-    SupportedParticle::new(ground, &sphere, radius, needed)
+    SupportedParticle::as_the_library(ground, &sphere(l_max), radius, needed)
 }

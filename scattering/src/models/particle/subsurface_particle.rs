@@ -254,7 +254,8 @@ mod tests {
         let f = |model: &models::Model, theta_s| model.mueller(&at(0.5, theta_s, 0.0), Basis::Psps);
         let difference = |a: Mueller, b: Mueller| (a - b).largest() / a.largest();
         assert!(difference(f(&sound, 0.5), f(&compat, 0.5)) > 1e-7);
-        assert!(difference(f(&sound, 0.6), f(&compat, 0.6)) < 1e-13);
+        // The sound series of the sphere has a few terms more.
+        assert!(difference(f(&sound, 0.6), f(&compat, 0.6)) < 1e-8);
         // Nothing jumps: 1e-9 rad from the specular direction changes as much.
         assert!(difference(f(&sound, 0.5), f(&sound, 0.5 + 1e-9)) < 1e-7);
     }

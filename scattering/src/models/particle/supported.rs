@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use self::image::{ImageMethod, MultipoleResponse};
+use self::image::{ImageMethod, ImageNodes, MultipoleResponse};
 use super::small_sphere::not_negative;
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode, Side,
@@ -31,6 +31,7 @@ use crate::{
     stack::Stack,
     tmatrix::{
         TMatrix,
+        converged::{self, Level, Orders},
         waves::{self, MirroredWave, Multipole, OutgoingMultipoles},
     },
 };
@@ -40,24 +41,22 @@ mod image;
 /// True if the library moves angles this near to the normal to it.
 const NORMAL: f64 = 1e-6;
 
-/// The parameters of how the interaction with the face is computed.
-pub(super) const INTERACTION: [Parameter; 3] = [
-    Parameter::integer(
-        "order",
-        -1,
-        "Interaction with the face: -1 exact, 0 none, n the first n terms of a series",
-    ),
-    Parameter::integer(
-        "Norm_Inc_Approx",
-        0,
-        "Reflection of the particle's own light: 0 exact, 1 as at normal incidence",
-    ),
-    Parameter::integer(
-        "improve",
-        3,
-        "Steps of iterative improvement in NIST's library; no effect, the solution is exact",
-    ),
-];
+/// The parameters of how the interaction with the face is computed, with the meaning of `order`.
+pub(super) const fn interaction(order: &'static str) -> [Parameter; 3] {
+    [
+        Parameter::integer("order", -1, order),
+        Parameter::integer(
+            "Norm_Inc_Approx",
+            0,
+            "Reflection of the particle's own light: 0 exact, 1 as at normal incidence",
+        ),
+        Parameter::integer(
+            "improve",
+            3,
+            "Steps of iterative improvement in NIST's library; no effect, the solution is exact",
+        ),
+    ]
+}
 
 /// The smooth face and where the particle is, as one outside in vacuum.
 pub(super) struct SubstrateFace {
@@ -83,6 +82,14 @@ impl SubstrateFace {
     /// Parameters of every model.
     pub(super) fn common(&self) -> &CommonParameters {
         &self.common
+    }
+
+    /// The same where every `order` above 0 stands for the exact answer.
+    pub(super) fn without_series(mut self) -> Self {
+        if let ImageMethod::Series(_) = self.method {
+            self.method = ImageMethod::Exact;
+        }
+        self
     }
 
     /// Reads what all such models share; `buried` puts the particle into the substrate.
@@ -148,32 +155,63 @@ pub(super) struct SupportedParticle {
 }
 
 impl SupportedParticle {
-    /// The particle with this T-matrix, its origin at `height` µm over the face if it touches it;
-    /// light is summed over l up to `l_out`.
-    pub(super) fn new(
+    /// The particle with this T-matrix as NIST's library computes it, its origin at `height` µm over the
+    /// face if it touches it; light is summed over l up to `l_out`.
+    pub(super) fn as_the_library(
         ground: SubstrateFace,
         particle: &TMatrix,
         height: f64,
         l_out: usize,
     ) -> Result<Self, ParameterError> {
-        let height = ground.k * (height + ground.delta);
         let l_out = l_out.min(particle.l_max);
-        let m_out = particle.m_max().min(l_out);
-        let SubstrateFace { films, normal_only, method, .. } = &ground;
         let response =
-            MultipoleResponse::new(particle, films, height, *normal_only, *method, l_out)
-                .ok_or_else(|| {
-                    let problem = "too many multipoles for this size and shape: they overflow";
-                    ParameterError::new("lmax", problem)
-                })?;
-        Ok(Self {
+            ground.response(particle, height, ImageNodes::Library, l_out).ok_or_else(|| {
+                let problem = "too many multipoles for this size and shape: they overflow";
+                ParameterError::new("lmax", problem)
+            })?;
+        Ok(Self::new(ground, particle, response, height, l_out))
+    }
+
+    /// The particle with the T-matrix and the height of its origin that `particle` gives for as many
+    /// orders as it takes to converge together with its image.
+    ///
+    /// # Errors
+    ///
+    /// If they do not.
+    pub(super) fn converged(
+        ground: SubstrateFace,
+        node: &ParameterNode,
+        orders: Orders,
+        particle: impl Fn(Level) -> Option<(TMatrix, f64)>,
+    ) -> Result<Self, ParameterError> {
+        let compute = |level: Level| {
+            let (particle, height) = particle(level)?;
+            let nodes = ImageNodes::Panels(if level.is_fine { 14 } else { 11 });
+            let response = ground.response(&particle, height, nodes, particle.l_max)?;
+            Some((particle, response, height))
+        };
+        let (particle, response, height) = converged::converged(node, orders, compute, |a, b| {
+            converged::distance(a.1.matrices(), b.1.matrices())
+        })?;
+        let l_out = particle.l_max;
+        Ok(Self::new(ground, &particle, response, height, l_out))
+    }
+
+    fn new(
+        ground: SubstrateFace,
+        particle: &TMatrix,
+        response: MultipoleResponse,
+        height: f64,
+        l_out: usize,
+    ) -> Self {
+        Self {
             response,
-            height,
+            height: ground.k * (height + ground.delta),
             incoming: Harmonics::new(particle.l_max, particle.m_max()),
-            outgoing: Harmonics::new(l_out, m_out),
+            outgoing: Harmonics::new(l_out, particle.m_max().min(l_out)),
             mispairs: false,
             ground,
-        })
+        }
     }
 
     /// The same with the harmonics of NIST's library
@@ -237,6 +275,17 @@ impl SupportedParticle {
 }
 
 impl SubstrateFace {
+    fn response(
+        &self,
+        particle: &TMatrix,
+        height: f64,
+        nodes: ImageNodes,
+        l_out: usize,
+    ) -> Option<MultipoleResponse> {
+        let (films, q) = (&self.films, self.k * (height + self.delta));
+        MultipoleResponse::new(particle, films, q, (self.normal_only, nodes), self.method, l_out)
+    }
+
     /// Sine and cosine of a polar angle, which the library keeps away from 0.
     fn angle(&self, theta: f64, sin: f64, cos: f64) -> (f64, f64) {
         if self.nudges && theta.abs() < NORMAL { NORMAL.sin_cos() } else { (sin.abs(), cos) }
@@ -283,12 +332,14 @@ fn mispaired(w: &[(usize, usize, Multipole)], harmonics: &Harmonics) -> Outgoing
         full[at + 1] = [w.p[1], w.s[1]];
     }
     let start = |l: usize| -> usize { (1..l).map(|l| 2 * (2 * l.min(m_max) + 1)).sum() };
+    let end = start(l_max + 1);
     let mut paired = Vec::new();
     for m in 0..=m_max {
         for l in Harmonics::l_min(m)..=l_max {
             let middle = start(l) + 2 * l.min(m_max);
             let read = |at: usize, sign: f64| {
-                let ([pe, se], [ph, sh]) = (full[at], full[at + 1]);
+                let value = |at: usize| if at < end { full[at] } else { [Complex64::ZERO; 2] };
+                let ([pe, se], [ph, sh]) = (value(at), value(at + 1));
                 Multipole { p: [pe * sign, ph * sign], s: [se * sign, sh * sign] }
             };
             let minus = if m == 0 { Multipole::default() } else { read(middle - 2 * m, sign(m)) };

@@ -103,7 +103,9 @@ impl Films {
     /// Tangential index of light that travels in the substrate at an angle with this sine.
     pub fn kappa_inside(&self, sin: f64) -> Complex64 {
         let kappa = self.substrate.index * sin;
-        if kappa.im == 0.0 { Complex64::new(kappa.re, -self.loss) } else { kappa }
+        // The loss is that of |sin|, so that light of a negative angle is lost too.
+        let loss = if sin < 0.0 { -self.loss } else { self.loss };
+        if kappa.im == 0.0 { Complex64::new(kappa.re, -loss) } else { kappa }
     }
 
     /// Reflection of light from outside.

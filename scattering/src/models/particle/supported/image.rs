@@ -13,8 +13,9 @@
 //! $$ \mathbf{w} = (\mathbf{T}^{-1} - \mathbf{A})^{-1} \mathbf{v}
 //!    = (1 - \mathbf{T}\mathbf{A})^{-1} \mathbf{T} \mathbf{v} $$
 //!
-//! The integral is a Gauss–Laguerre sum of min(100, 10(⌊L/10⌋+1)) nodes; their number is part of
-//! the result, which changes by 10⁻⁵ with it.
+//! NIST's library takes a Gauss–Laguerre sum of min(100, 10(⌊L/10⌋+1)) nodes, 10⁻⁵ off
+//! ([`Defect::ImageNodes`](crate::Defect::ImageNodes)). The sound integral goes by panels that are as
+//! narrow as the distance 2q of the branch points of r from the path, up to where the weight is nothing.
 //!
 //! P. A. Bobbert and J. Vlieger, Physica A 137, 209 (1986), section 8.
 
@@ -23,6 +24,7 @@ use num_complex::Complex64;
 use crate::{
     optics::film::{Films, SpAmplitudes},
     special::{
+        gauss,
         harmonics::{Harmonics, Scalar},
         laguerre,
     },
@@ -40,7 +42,39 @@ struct OrderBlock {
     rows: usize,
 }
 
-/// Computation of w from T and A: the parameter `order`.
+/// The nodes of the integral.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ImageNodes {
+    /// As many as NIST's library takes.
+    Library,
+    /// Panels with so many nodes each.
+    Panels(usize),
+}
+
+impl ImageNodes {
+    /// Nodes x and weights, e^{−x} included, for orders up to `l_max` at the height `q`.
+    fn rule(self, l_max: usize, q: f64) -> Vec<(f64, f64)> {
+        let count = match self {
+            Self::Library => return laguerre::rule((10 * (l_max / 10 + 1)).min(100)),
+            Self::Panels(count) => count,
+        };
+        // e^{−x} x^{2L} peaks at 2L, is √(2L) wide, and nothing ten widths beyond.
+        let degree = 2.0 * l_max as f64;
+        let (end, widest) = (degree + 10.0 * degree.sqrt() + 40.0, 4.0 + 0.5 * degree.sqrt());
+        let (mut from, mut width) = (0.0, (0.5 * q).clamp(1e-6, widest));
+        let mut rule = Vec::new();
+        while from < end {
+            let to = from + width;
+            rule.extend(
+                gauss::legendre(count, from, to).into_iter().map(|(x, w)| (x, w * (-x).exp())),
+            );
+            (from, width) = (to, (0.5 * (to + q)).clamp(width, widest));
+        }
+        rule
+    }
+}
+
+/// How w follows from T and A: the parameter `order`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ImageMethod {
     /// Exactly.
@@ -58,17 +92,22 @@ impl MultipoleResponse {
         particle: &TMatrix,
         films: &Films,
         q: f64,
-        normal_only: bool,
+        (normal_only, nodes): (bool, ImageNodes),
         method: ImageMethod,
         l_out: usize,
     ) -> Option<Self> {
-        let image = ImageOperator::new(films, q, normal_only, particle);
+        let image = ImageOperator::new(films, q, (normal_only, nodes), particle);
         let block = |(m, t): (usize, &ComplexMatrix)| {
             let matrix = answer(t, &image.block(m), method)?;
             let rows = (l_out + 1).saturating_sub(Harmonics::l_min(m));
             Some(OrderBlock { matrix, rows })
         };
         particle.blocks.iter().enumerate().map(block).collect::<Option<_>>().map(Self)
+    }
+
+    /// The matrices R by m.
+    pub(super) fn matrices(&self) -> impl Iterator<Item = (usize, &ComplexMatrix)> {
+        self.0.iter().map(|block| &block.matrix).enumerate()
     }
 
     /// (m, l, w) for regular waves in the order of [`Harmonics::visit`].
@@ -122,7 +161,12 @@ struct ImageNode {
 }
 
 impl ImageOperator {
-    fn new(films: &Films, q: f64, normal_only: bool, particle: &TMatrix) -> Self {
+    fn new(
+        films: &Films,
+        q: f64,
+        (normal_only, nodes): (bool, ImageNodes),
+        particle: &TMatrix,
+    ) -> Self {
         let l_max = particle.l_max;
         let harmonics = Harmonics::new(l_max, particle.m_max());
         let common = (2.0 * q * I).exp() / (2.0 * q * I);
@@ -135,8 +179,7 @@ impl ImageOperator {
             harmonics.visit(cos, sin, |m, _, tau, mu| angular[m].push((tau, mu)));
             ImageNode { r: SpAmplitudes { s: scale * r.s, p: scale * r.p }, angular }
         };
-        let count = (10 * (l_max / 10 + 1)).min(100);
-        Self { l_max, nodes: laguerre::rule(count).into_iter().map(node).collect() }
+        Self { l_max, nodes: nodes.rule(l_max, q).into_iter().map(node).collect() }
     }
 
     /// A of the order `m`.
@@ -198,7 +241,8 @@ mod tests {
     }
 
     fn response(n: f64, q: f64, method: ImageMethod) -> MultipoleResponse {
-        MultipoleResponse::new(&sphere(), &films(n), q, false, method, 5).unwrap()
+        MultipoleResponse::new(&sphere(), &films(n), q, (false, ImageNodes::Library), method, 5)
+            .unwrap()
     }
 
     #[test]
@@ -220,10 +264,25 @@ mod tests {
     fn the_image_of_a_dipole_far_from_the_face_is_its_reflected_wave() {
         // For q → ∞ only normal incidence counts: A_ee of l = m = 1 is r_s (3/2)/(2iq) e^{2iq}…
         let q = 1e4;
-        let image = ImageOperator::new(&films(1.5), q, true, &sphere());
+        let image = ImageOperator::new(&films(1.5), q, (true, ImageNodes::Library), &sphere());
         let got = image.block(1)[(0, 0)];
         // τ = μ = √(3/2) at α = 0, so that A = K [−r_p + r_s]·3/2 with r_p = −r_s = 0.2.
         let expected = (2.0 * q * I).exp() / (2.0 * q * I) / 2.0 * 1.5 * (-0.4);
         assert!((got / expected - 1.0).norm() < 1e-3, "{got} {expected}");
+    }
+
+    #[test]
+    fn panels_converge_and_the_librarys_nodes_come_near() {
+        // κ = 3.5 of a metal, a small and a large height.
+        let films = Films::new(&[], Complex64::ONE, Complex64::new(0.2, 3.5), 0.6);
+        for q in [0.05, 1.0, 12.0] {
+            let at = |nodes| ImageOperator::new(&films, q, (false, nodes), &sphere()).block(1);
+            let (fine, coarse) = (at(ImageNodes::Panels(24)), at(ImageNodes::Panels(14)));
+            let difference = (&fine - &coarse).norm_max() / fine.norm_max();
+            assert!(difference < 1e-10, "{q}: {difference:e}");
+            let library = at(ImageNodes::Library);
+            let difference = (&fine - &library).norm_max() / fine.norm_max();
+            assert!(difference < 1e-2, "{q}: {difference:e}");
+        }
     }
 }
