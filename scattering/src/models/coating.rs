@@ -8,18 +8,20 @@ use super::brdf::Brdf;
 use crate::spec::Spec;
 
 mod body;
-mod closing;
 mod coat;
+mod cover;
+mod directional_albedo;
 mod doubling;
-mod exchange;
+mod energy_compensation;
 mod flakes;
 mod immersed;
 mod interface;
+mod interreflection;
 pub mod layer;
 pub mod layered;
-mod passage;
 pub mod pigmented;
-mod returned;
+mod published;
+mod transmission;
 
 /// The models of this group, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Brdf>] = &[&pigmented::SPEC, &layered::SPEC];

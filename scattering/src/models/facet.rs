@@ -6,10 +6,10 @@ use crate::spec::Spec;
 pub mod bare;
 mod batch;
 mod parameters;
+mod rotation;
 pub mod shadowed;
 pub mod shadowed_subsurface;
 pub mod subsurface;
-mod turn;
 
 pub use parameters::FACET;
 

@@ -7,7 +7,7 @@ use num_complex::Complex64;
 use super::{
     interface::{Interface, InterfaceRay, RoughnessParameters},
     layer::CoatingLayer,
-    passage::TransmissionFactors,
+    transmission::TransmissionFactors,
 };
 use crate::{ParameterError, slope, special::gauss, stack::Stack};
 

@@ -12,9 +12,9 @@ use num_complex::Complex64;
 
 use super::{
     body::nonnegative,
+    directional_albedo::{DirectionalAlbedo, ErrorSign},
     interface::{InterfaceRay, RoughnessParameters, facets},
-    passage::TransmissionFactors,
-    returned::{DirectionalAlbedo, ErrorSign},
+    transmission::TransmissionFactors,
 };
 use crate::{
     Direction, Incidence, Mueller, ParameterError, ParameterNode,
@@ -98,18 +98,18 @@ impl Flakes {
         Ok(Self { kinds, transparent, tables: None })
     }
 
-    /// Tabulates what they return; the surface above sends `lid` of a ray back to them, all of it
+    /// Tabulates what they return; the surface above sends `internal_reflectance` of a ray back to them, all of it
     /// from the sine `edge` on.
     pub(super) fn tabulate(
         &mut self,
         node: &ParameterNode,
-        lid: &dyn Fn(&InterfaceRay) -> TransmissionFactors,
+        internal_reflectance: &dyn Fn(&InterfaceRay) -> TransmissionFactors,
         edge: f64,
     ) -> Result<(), ParameterError> {
         let slopes = node.member::<dyn SlopeDistribution>("sdf")?;
         let rows = |at: &Incidence, to: &Direction| {
             let up = self.mueller(at, to);
-            let back = lid(&InterfaceRay::reversed(at, to)).row();
+            let back = internal_reflectance(&InterfaceRay::reversed(at, to)).row();
             let caught = std::array::from_fn(|j| back[0] * up.0[0][j] + back[1] * up.0[1][j]);
             [up.0[0], caught]
         };
@@ -147,8 +147,8 @@ impl Flakes {
         (returned, tables.caught.at(theta, cos, sin))
     }
 
-    /// The fates of a ray with this sine, the mean over azimuths.
-    pub(super) fn fates(&self, sin: f64) -> FlakeFractions {
+    /// The fractions of a ray with this sine, the mean over azimuths.
+    pub(super) fn fractions(&self, sin: f64) -> FlakeFractions {
         let Some(tables) = &self.tables else { return FlakeFractions::default() };
         let theta = sin.min(1.0).asin();
         let flat = self.flat(sin);

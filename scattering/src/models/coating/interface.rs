@@ -8,8 +8,8 @@
 use num_complex::Complex64;
 
 use super::{
-    passage::TransmissionFactors,
-    returned::{DirectionalAlbedo, ErrorSign},
+    directional_albedo::{DirectionalAlbedo, ErrorSign},
+    transmission::TransmissionFactors,
 };
 use crate::{
     Direction, Incidence, Mode, Mueller, ParameterError, ParameterNode, ParameterValue,

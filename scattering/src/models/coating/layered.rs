@@ -33,12 +33,12 @@
 use std::f64::consts::FRAC_1_PI;
 
 use super::{
-    closing::EnergyCompensation,
     coat::{Absorption, CoatLayer, LayersAbove, recycled},
+    energy_compensation::EnergyCompensation,
     immersed::immersed,
     interface::{Interface, InterfaceRay, behind},
     layer::{CoatingLayer, FAMILY},
-    passage::depolarized,
+    transmission::depolarized,
 };
 use crate::{
     Basis, Direction, Incidence, Model, Mueller, ParameterError, ParameterNode,
@@ -102,7 +102,7 @@ enum LowestSurface {
         /// R/(π(1 − ρR)).
         strength: f64,
         /// Light that reaches it through rough interfaces.
-        closing: Option<EnergyCompensation>,
+        compensation: Option<EnergyCompensation>,
     },
     /// Any other model, immersed.
     Immersed(Model),
@@ -117,19 +117,19 @@ impl LayeredModel {
         let n = coats.last().map_or(1.0, |coat| coat.n);
         let bottom = match diffuse_body(&below, &common, &mut coats)? {
             Some(reflectance) => {
-                let closing = EnergyCompensation::new(&coats);
-                let rho = match &closing {
+                let compensation = EnergyCompensation::new(&coats);
+                let rho = match &compensation {
                     None => recycled(&coats, common.lambda, Absorption::Lossy),
-                    Some(closing) => {
+                    Some(compensation) => {
                         // Absorption on the way back is that of light which is not caught.
                         let clear = recycled(&coats, common.lambda, Absorption::Clear);
                         let lossy = recycled(&coats, common.lambda, Absorption::Lossy);
                         let kept = if clear > 0.0 { (lossy / clear).min(1.0) } else { 1.0 };
-                        kept * closing.sent_back(&coats)
+                        kept * compensation.sent_back(&coats)
                     }
                 };
                 let strength = FRAC_1_PI * reflectance / (1.0 - rho * reflectance);
-                LowestSurface::Diffuse { strength, closing }
+                LowestSurface::Diffuse { strength, compensation }
             }
             None => {
                 let inside = immersed("model", &below, n, common.lambda)?;
@@ -242,15 +242,15 @@ impl Brdf for LayeredModel {
             (ray_i, ray_s, n) = (below_i, below_s, coat.n);
         }
         match &self.bottom {
-            LowestSurface::Diffuse { strength, closing } => {
+            LowestSurface::Diffuse { strength, compensation } => {
                 let mut rows = [above_s.passes.row(), above_i.passes.row()];
-                if let Some(closing) = closing {
+                if let Some(compensation) = compensation {
                     let outside = [
                         InterfaceRay::reversed(incidence, direction),
                         InterfaceRay::incident(incidence),
                     ];
                     for (row, ray) in rows.iter_mut().zip(outside) {
-                        closing.add(row, &self.coats, ray);
+                        compensation.add(row, &self.coats, ray);
                     }
                 }
                 let [leaving, entering] = rows;

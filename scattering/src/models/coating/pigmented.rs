@@ -49,17 +49,19 @@
 //! M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969); T. A. Germer and M. E. Nadal,
 //! Proc. SPIE 4447, 77 (2001); L. B. Wolff, JOSA A 11, 2956 (1994).
 
-use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 use super::{
-    body::{self, nonnegative},
+    body,
+    cover::FlakeCover,
     doubling::DiffuseSlab,
-    exchange::{DiffuseMeans, InterreflectionMatrix},
     flakes::Flakes,
     interface::{
         Interface, InterfaceRay, InterfaceTransmission, RoughnessParameters, behind, realizable,
     },
-    passage::depolarized,
+    interreflection::{DiffuseMeans, InterreflectionMatrix},
+    published::{PublishedForm, printed_jacobian, transposed_jones},
+    transmission::depolarized,
 };
 use crate::{
     Direction, Incidence, ModelLimit, Mueller, ParameterError, ParameterNode,
@@ -174,78 +176,6 @@ struct PigmentedCoating {
     printed: PublishedForm,
 }
 
-/// Parts that are computed as the paper prints them.
-struct PublishedForm {
-    body: bool,
-    surface: bool,
-    flakes: bool,
-}
-
-/// Division of the light between flakes and binder.
-struct FlakeCover {
-    /// τ.
-    depth: f64,
-    /// 2 − c.
-    passes: f64,
-    /// κL.
-    binder: f64,
-    /// The flakes' weight of equation 11, if it is taken as printed.
-    printed: bool,
-}
-
-impl FlakeCover {
-    fn read(
-        node: &ParameterNode,
-        lambda: f64,
-        k: f64,
-        printed: bool,
-    ) -> Result<Self, ParameterError> {
-        let thickness = nonnegative(node, "thickness")?;
-        let depth =
-            nonnegative(node, "flake_density")? * nonnegative(node, "flake_area")? * thickness;
-        let correlation = node.number("correlation");
-        if !(0.0..=1.0).contains(&correlation) {
-            let problem = format!("{correlation} is not from 0 to 1");
-            return Err(ParameterError::new("correlation", problem));
-        }
-        let binder = 4.0 * PI * k * thickness / lambda;
-        Ok(Self { depth, passes: 2.0 - correlation, binder, printed })
-    }
-
-    /// ω_s for rays with these cosines inside.
-    fn flakes(&self, cos_i: f64, cos_s: f64) -> f64 {
-        if self.printed {
-            return (-self.depth).exp();
-        }
-        let mut whole = self.passes * self.depth;
-        if self.binder > 0.0 {
-            whole += self.binder * (1.0 / cos_i + 1.0 / cos_s);
-        }
-        if whole > 0.0 { -self.depth * (-whole).exp_m1() / whole } else { 0.0 }
-    }
-
-    /// ω_s without absorption.
-    fn covered(&self) -> f64 {
-        -(-self.passes * self.depth).exp_m1() / self.passes
-    }
-
-    /// ω_d without absorption.
-    fn gaps(&self) -> f64 {
-        (-self.passes * self.depth).exp()
-    }
-
-    /// Transmittance of the binder for a ray with this cosine on the part `part` of its way.
-    fn left(&self, part: f64, cos: f64) -> f64 {
-        if self.binder > 0.0 { (-self.binder * part / cos).exp() } else { 1.0 }
-    }
-
-    /// Mean depth of the flakes that are seen, over the thickness.
-    fn level(&self) -> f64 {
-        let whole = self.passes * self.depth;
-        if whole < 1e-4 { 0.5 - whole / 12.0 } else { 1.0 / whole - 1.0 / whole.exp_m1() }
-    }
-}
-
 impl PigmentedCoating {
     fn read(node: &ParameterNode) -> Result<Self, ParameterError> {
         let common = CommonParameters::read(node)?;
@@ -299,8 +229,9 @@ impl PigmentedCoating {
         let escaping = self.escaping(|ray| {
             self.surface.mean_passage(ray.sin).row()[0] * shape(&ray.below(self.n))
         });
-        let returned =
-            self.inside(|ray| self.lid(ray) * self.cover.left(2.0, ray.cos) * shape(ray).powi(2));
+        let returned = self.inside(|ray| {
+            self.internal_reflectance(ray) * self.cover.left(2.0, ray.cos) * shape(ray).powi(2)
+        });
         // α returned ≤ 1 − escaping, exactly where nothing absorbs.
         let rho =
             if alpha * returned > 1.0 - escaping { (1.0 - escaping) / alpha } else { returned };
@@ -310,9 +241,9 @@ impl PigmentedCoating {
         if seen {
             let Self { flakes, surface, cover, .. } = self;
             let level = cover.level();
-            let lid =
+            let internal =
                 |up: &InterfaceRay| surface.sends_back(up).scaled(cover.left(2.0 * level, up.cos));
-            flakes.tabulate(node, &lid, 1.0 / self.n)?;
+            flakes.tabulate(node, &internal, 1.0 / self.n)?;
             let InterreflectionMatrix { ll, lc, cc } =
                 InterreflectionMatrix::new(&self.means(), alpha);
             let part = |x: f64| x * weight * FRAC_1_PI / n2;
@@ -324,7 +255,7 @@ impl PigmentedCoating {
     /// The means over diffuse light at flakes.
     fn means(&self) -> DiffuseMeans {
         let level = self.cover.level();
-        let lid = |ray: &InterfaceRay| {
+        let internal = |ray: &InterfaceRay| {
             let back = self.surface.mean_sent_back(ray.sin * self.n);
             back.scaled(self.cover.left(2.0 * level, ray.cos))
         };
@@ -335,27 +266,27 @@ impl PigmentedCoating {
         };
         let both = |(s, p): (f64, f64)| 0.5 * (s + p);
         let with = |a: (f64, f64), b: (f64, f64)| 0.5 * (a.0 * b.0 + a.1 * b.1);
-        let pair = |ray: &InterfaceRay| (lid(ray).s, lid(ray).p);
-        let fates = |ray: &InterfaceRay| self.flakes.fates(ray.sin);
+        let pair = |ray: &InterfaceRay| (internal(ray).s, internal(ray).p);
+        let fractions = |ray: &InterfaceRay| self.flakes.fractions(ray.sin);
         let crossing = |ray: &InterfaceRay, of: &dyn Fn(&InterfaceRay) -> (f64, f64)| {
             let (through, inside) = (self.surface.mean_passage(ray.sin), ray.below(self.n));
             with((through.s, through.p), of(&inside))
         };
         let caught = |ray: &InterfaceRay| {
-            let (s, p) = fates(ray).caught;
+            let (s, p) = fractions(ray).caught;
             let left = self.cover.left(level, ray.cos);
             (s * left, p * left)
         };
         let passed = |ray: &InterfaceRay| {
-            let (s, p) = fates(ray).passed;
+            let (s, p) = fractions(ray).passed;
             let left = self.cover.left(1.0, ray.cos) * self.slab.shape(ray.cos);
             (s * left, p * left)
         };
         DiffuseMeans {
-            lid: self.inside(|ray| both(pair(ray))),
-            caught_again: self.inside(|ray| with(pair(ray), fates(ray).caught)),
-            passed_down: self.inside(|ray| with(pair(ray), fates(ray).passed) * below(ray, 1)),
-            below: self.inside(|ray| both(fates(ray).returned) * below(ray, 2)),
+            internal_reflectance: self.inside(|ray| both(pair(ray))),
+            caught_again: self.inside(|ray| with(pair(ray), fractions(ray).caught)),
+            passed_down: self.inside(|ray| with(pair(ray), fractions(ray).passed) * below(ray, 1)),
+            below: self.inside(|ray| both(fractions(ray).returned) * below(ray, 2)),
             escapes: (
                 self.escaping(|ray| crossing(ray, &caught)),
                 self.escaping(|ray| crossing(ray, &passed)),
@@ -364,7 +295,7 @@ impl PigmentedCoating {
     }
 
     /// Internal reflectance of the surface for an unpolarized ray, the mean over azimuths.
-    fn lid(&self, inside: &InterfaceRay) -> f64 {
+    fn internal_reflectance(&self, inside: &InterfaceRay) -> f64 {
         self.surface.mean_sent_back(inside.sin * self.n).row()[0]
     }
 
@@ -483,19 +414,6 @@ struct SurfaceRay {
     outside: InterfaceRay,
     inside: InterfaceRay,
     crossing: InterfaceTransmission,
-}
-
-/// The Mueller matrix of the transposed Jones matrix.
-fn transposed_jones(m: &Mueller) -> Mueller {
-    let d = Mueller::diagonal([1.0, 1.0, 1.0, -1.0]);
-    d * m.transposed() * d
-}
-
-/// (1 + ζ)²/(1 + ζ²)² of the facet that reflects one ray into the other.
-fn printed_jacobian(at: &Incidence, to: &Direction) -> f64 {
-    let (x, y) = (to.sin * to.cos_phi - at.sin, to.sin * to.sin_phi);
-    let slope = x.hypot(y) / (at.cos + to.cos);
-    ((1.0 + slope) / (1.0 + slope * slope)).powi(2)
 }
 
 /// The parameter `name`, 0 or 1.

@@ -25,7 +25,7 @@ use num_complex::Complex64;
 
 use super::{
     FACET,
-    turn::{FacetOrientation, FacetRotation},
+    rotation::{FacetOrientation, FacetRotation},
 };
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode, Side,

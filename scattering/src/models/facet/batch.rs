@@ -5,7 +5,7 @@
 
 use super::{
     bare::{Facet, UNTURNED_REFLECTION},
-    turn::{FacetOrientation, FacetRotation},
+    rotation::{FacetOrientation, FacetRotation},
 };
 use crate::{
     Direction, Incidence, Mueller, Side,

@@ -17,7 +17,7 @@
 
 use num_complex::Complex64;
 
-use super::{FACET, bare::turned, turn::FacetOrientation};
+use super::{FACET, bare::turned, rotation::FacetOrientation};
 use crate::{
     Defect, Direction, Incidence, Jones, Mueller, ParameterError, ParameterNode,
     geometry::ScatteredRay,

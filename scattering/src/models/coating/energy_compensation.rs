@@ -16,8 +16,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{
     coat::{Absorption, CoatLayer, LayersAbove},
+    directional_albedo::{DirectionalAlbedo, ErrorSign},
     interface::{InterfaceRay, realizable},
-    returned::{DirectionalAlbedo, ErrorSign},
 };
 use crate::{Direction, Incidence, special::gauss};
 

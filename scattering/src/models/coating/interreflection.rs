@@ -18,7 +18,7 @@
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiffuseMeans {
     /// ρ.
-    pub(super) lid: f64,
+    pub(super) internal_reflectance: f64,
     /// r_w.
     pub(super) caught_again: f64,
     /// τ_w.
@@ -47,7 +47,7 @@ impl InterreflectionMatrix {
     pub(super) fn new(means: &DiffuseMeans, alpha: f64) -> Self {
         let tau = means.passed_down;
         let (l, c) = means.escapes;
-        let a = (means.lid - means.caught_again).max(l + alpha * tau);
+        let a = (means.internal_reflectance - means.caught_again).max(l + alpha * tau);
         // α times the lower right element.
         let b = (1.0 - alpha * means.below).max(c + tau);
         if a < NOTHING {
@@ -64,9 +64,9 @@ mod tests {
 
     #[test]
     fn without_absorption_all_light_comes_out_of_both_spaces() {
-        // Of the lid's 0.6, 0.2 pass down, 0.1 are caught again, 0.3 get out.
+        // Of the internal reflectance 0.6, 0.2 pass down, 0.1 are caught again, 0.3 get out.
         let means = DiffuseMeans {
-            lid: 0.6,
+            internal_reflectance: 0.6,
             caught_again: 0.1,
             passed_down: 0.2,
             below: 0.35,
@@ -81,7 +81,7 @@ mod tests {
     fn flakes_that_are_not_there_leave_the_body_under_its_surface() {
         let (rho, alpha) = (0.6, 0.7);
         let means = DiffuseMeans {
-            lid: rho,
+            internal_reflectance: rho,
             caught_again: 0.0,
             passed_down: rho,
             below: 0.0,
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn a_black_body_gives_nothing_back() {
         let means = DiffuseMeans {
-            lid: 0.6,
+            internal_reflectance: 0.6,
             caught_again: 0.1,
             passed_down: 0.2,
             below: 0.35,
