@@ -13,10 +13,12 @@
 mod blocks;
 pub(crate) mod converged;
 pub mod ebcm;
+mod parameters;
 pub mod spheroid;
 pub mod waves;
 
-pub(crate) use blocks::{BODY, MULTIPOLES, apply, is_finite, l_max, m_max, read, solve, terms};
 pub use blocks::{MOST, TMatrix};
+pub(crate) use blocks::{apply, is_finite, solve};
+pub(crate) use parameters::{BODY, MULTIPOLES, l_max, m_max, read, terms};
 
 pub use crate::special::matrix::ComplexMatrix;

@@ -117,7 +117,7 @@ impl RealFunction {
         constant.into_iter().chain(points.iter().map(|point| point.1))
     }
 
-    /// Whether it is negative at a point or, for a spline, anywhere between two points.
+    /// True if the function is negative at a point or, for a spline, between two points.
     pub(crate) fn dips_below_zero(&self) -> bool {
         /// Places that are looked at between two points.
         const STEPS: u32 = 32;
@@ -132,7 +132,7 @@ impl RealFunction {
         p.rise == TableInterpolation::Spline && p.points.windows(2).any(between)
     }
 
-    /// Whether there is a number between any two points.
+    /// True if every value between two points is finite.
     pub(crate) fn can_interpolate(&self) -> bool {
         let Self::Points(p) = self else { return true };
         let scaled = p.scaled.iter().flat_map(|point| [point.0, point.1]);

@@ -55,11 +55,10 @@ pub struct TriangularPyramid {
     dark_lines: bool,
 }
 
-/// Where NIST's library leaves its closed form: the size of a factor or of the whole denominator.
+/// Size of a factor or of the denominator below which NIST's library leaves its closed form.
 const NEAR_LINE: f64 = 1e-6;
 
-/// Whether NIST's library has nothing: its denominator is small and none of the factors for which it has
-/// a limit.
+/// True if NIST's library gives 0: its denominator is small and no factor with a limit is.
 fn is_dark(x: f64, y: f64) -> bool {
     let (x2, y2) = (x * x, y * y);
     let denominator = 4.0 * PI.powi(3) * x * y * (3.0 * x2 * x2 - 10.0 * x2 * y2 + 3.0 * y2 * y2);

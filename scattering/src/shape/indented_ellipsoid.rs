@@ -17,7 +17,7 @@ use crate::{
     spec::{Class, Laws, Parameter, Spec},
 };
 
-/// How programs name, parameterize and build a cut ellipsoid.
+/// Name, parameters and constructor of the class.
 pub const SPEC: Spec<Shape> = Spec {
     class: Class {
         name: "Indented_Ellipsoid_Axisymmetric_Shape",

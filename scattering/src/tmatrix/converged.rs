@@ -19,15 +19,15 @@ const AIM: f64 = 1e-7;
 const STATED: f64 = 1e-4;
 /// Relative error above which a result is refused.
 const REFUSED: f64 = 1e-2;
-/// How many times the orders rise.
+/// Number of times that the orders are raised.
 const ATTEMPTS: usize = 4;
 
-/// What is computed twice: orders up to `l_max`, at many nodes or at fewer.
+/// One of the two computations: orders up to `l_max`, at many nodes or at fewer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Level {
     /// The largest l.
     pub l_max: usize,
-    /// Whether this is the better one of the two.
+    /// True for the more accurate one of the two.
     pub is_fine: bool,
 }
 

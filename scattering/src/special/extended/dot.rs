@@ -8,7 +8,7 @@ use pulp::{NullaryFnOnce, x86::V3};
 
 use super::Extended;
 
-/// How many sums run side by side.
+/// Number of sums that run side by side.
 const LANES: usize = 4;
 
 /// Numbers, their leading parts and the others apart, filled up with zeros.

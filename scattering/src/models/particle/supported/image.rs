@@ -74,7 +74,7 @@ impl ImageNodes {
     }
 }
 
-/// How w follows from T and A: the parameter `order`.
+/// The equation from which w follows, the parameter `order`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ImageMethod {
     /// Exactly.
