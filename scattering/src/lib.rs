@@ -20,6 +20,7 @@
 pub mod cross_grating;
 pub mod defect;
 pub mod distribution;
+pub mod doubling;
 pub mod geometry;
 pub mod grating;
 pub mod lanes;

@@ -29,6 +29,8 @@ pub enum ModelLimit {
         /// The relative error of the amplitudes, 10⁻⁶.
         millionths: u32,
     },
+    /// The azimuthal modes of a paint end before they are small.
+    ModesEnded,
 }
 
 impl ModelLimit {
@@ -54,6 +56,10 @@ impl ModelLimit {
             Self::Unrealizable => {
                 "scattered light has more polarization than intensity at some angles: lower plmax, \
                  pcmax or s of the phase function"
+            }
+            Self::ModesEnded => {
+                "narrow lobes of the paint have more azimuthal modes than are taken: the BRDF \
+                 ripples; take wider slopes of faces and flakes or a coarser tolerance"
             }
         }
     }

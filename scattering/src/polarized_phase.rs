@@ -6,11 +6,15 @@ pub mod code_whitney;
 pub mod constrained;
 pub mod distributed_mie;
 mod family;
+pub mod mixture;
+pub mod none;
+pub mod scaled;
+pub mod series;
 pub mod sphere;
 pub mod unpolarized;
 
-use family::ScalarPhase;
 pub use family::{FAMILY, PolarizedPhase, SCALAR};
+use family::{ScalarPhase, coefficient};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn PolarizedPhase>] = &[
@@ -19,6 +23,10 @@ pub const ALL: &[&Spec<dyn PolarizedPhase>] = &[
     &constrained::SPEC,
     &sphere::SPEC,
     &distributed_mie::SPEC,
+    &mixture::SPEC,
+    &scaled::SPEC,
+    &series::SPEC,
+    &none::SPEC,
 ];
 
 impl Member for dyn PolarizedPhase {
@@ -37,7 +45,10 @@ mod tests {
         for spec in ALL {
             let node = ParameterNode::with_defaults(&spec.class, Mode::Sound);
             // Spheres of up to 100 µm have lobes that few nodes do not see.
-            if spec.class.name == "Distributed_Mie_Phase_Function" {
+            // Without particles nothing is scattered.
+            if ["Distributed_Mie_Phase_Function", "No_Polarized_Phase_Function"]
+                .contains(&spec.class.name)
+            {
                 continue;
             }
             let phase = (spec.build)(&node).unwrap();

@@ -25,6 +25,9 @@ pub static FAMILIES: &[&Family] = &[
     &cross_grating::FAMILY,
     &shape::FAMILY,
     &models::coating::layer::FAMILY,
+    &models::coating::paint::FAMILY,
+    &models::coating::paint_face::FAMILY,
+    &models::coating::paint_flakes::FAMILY,
 ];
 
 /// All classes, family by family.

@@ -7,6 +7,8 @@
 use super::brdf::Brdf;
 use crate::spec::Spec;
 
+pub mod adding_doubling;
+mod backing;
 mod body;
 mod coat;
 mod cover;
@@ -19,9 +21,14 @@ mod interface;
 mod interreflection;
 pub mod layer;
 pub mod layered;
+pub mod paint;
+pub mod paint_face;
+pub mod paint_flakes;
 pub mod pigmented;
 mod published;
+pub mod smooth_surface;
 mod transmission;
 
 /// The models of this group, in the order they are listed to users.
-pub const ALL: &[&Spec<dyn Brdf>] = &[&pigmented::SPEC, &layered::SPEC];
+pub const ALL: &[&Spec<dyn Brdf>] =
+    &[&pigmented::SPEC, &layered::SPEC, &adding_doubling::SPEC, &smooth_surface::SPEC];

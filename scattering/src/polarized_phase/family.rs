@@ -65,6 +65,15 @@ impl ScalarPhase {
     }
 }
 
+/// The coefficient `name`, 1/µm, which must not be negative.
+pub(super) fn coefficient(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
+    let x = node.number(name);
+    if x >= 0.0 && x.is_finite() {
+        return Ok(x);
+    }
+    Err(ParameterError::new(name, format!("{x} is negative or not finite")))
+}
+
 fn exponential(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
     let log = node.number(name);
     if log.exp().is_finite() {

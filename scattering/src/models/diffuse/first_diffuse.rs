@@ -83,7 +83,12 @@ impl FirstDiffuse {
             common,
             films,
             n,
-            albedo: phase.scattering() / (total * n * n),
+            // Without particles nothing is scattered, 0/0 if the host is clear too.
+            albedo: if phase.scattering() > 0.0 {
+                phase.scattering() / (total * n * n)
+            } else {
+                0.0
+            },
             phase,
             linear_loss: node.number("depoll"),
             circular_loss: node.number("depolc"),

@@ -1,0 +1,38 @@
+//! Radiative transfer in coatings with polarization: adding and doubling between faces.
+//!
+//! Every slab and face exchanges light with all others, with the whole Stokes vector. Light is
+//! kept at [`nodes`] of the tangential index that all media share, and in independent [`block`]s,
+//! one for each azimuthal mode. A [`slab`] of scatterers ([`expansion`], [`phase_matrix`],
+//! [`wigner`]) and [`flakes`] is doubled from a thin part of it; [`operator`] adds slabs, smooth
+//! [`interface`]s, [`rough`] ones (all bounces: [`heights`]) and the bottom to a [`stack`]. The
+//! [`diffuse`] reflection becomes a [`table`] that is interpolated in both angles; light scattered
+//! once ([`single`], [`phase_table`]) is added exactly.
+//!
+//! J. F. de Haan, P. B. Bosma and J. W. Hovenier, Astron. Astrophys. 183, 371 (1987); H. C. van de
+//! Hulst, *Multiple Light Scattering* (Academic Press, 1980).
+
+pub mod azimuth;
+pub mod block;
+pub mod books;
+pub mod diffuse;
+pub mod expansion;
+pub mod facet;
+mod facet_media;
+pub mod flakes;
+pub mod heights;
+pub mod interface;
+pub mod nodes;
+pub mod operator;
+pub mod phase_matrix;
+pub mod phase_table;
+pub mod rough;
+pub mod scaling;
+pub mod single;
+pub mod slab;
+pub mod slopes;
+pub mod stack;
+pub mod table;
+pub mod wigner;
+
+#[cfg(test)]
+mod tests;
