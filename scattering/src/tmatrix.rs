@@ -11,6 +11,7 @@
 //! *Scattering, Absorption, and Emission of Light by Small Particles* (Cambridge, 2002).
 
 mod blocks;
+mod build;
 pub(crate) mod converged;
 pub mod ebcm;
 mod parameters;
@@ -19,6 +20,7 @@ pub mod waves;
 
 pub use blocks::{MOST, TMatrix};
 pub(crate) use blocks::{apply, is_finite, solve};
-pub(crate) use parameters::{BODY, MULTIPOLES, l_max, m_max, read, terms};
+pub(crate) use build::read;
+pub(crate) use parameters::{BODY, MULTIPOLES, l_max, m_max, terms};
 
 pub use crate::special::matrix::ComplexMatrix;

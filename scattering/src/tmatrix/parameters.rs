@@ -1,16 +1,7 @@
 //! The parameters of models that use a T matrix.
 
-use num_complex::Complex64;
-
-use super::{
-    blocks::{MOST, TMatrix},
-    converged::{self, Orders},
-};
-use crate::{
-    Mode, ParameterError, ParameterNode,
-    shape::{self, Shape},
-    spec::Parameter,
-};
+use super::blocks::MOST;
+use crate::{ParameterError, ParameterNode, shape, spec::Parameter};
 
 /// The largest l that the parameter `lmax` requests if the size needs `needed`.
 pub(crate) fn l_max(node: &ParameterNode, needed: usize) -> Result<usize, ParameterError> {
@@ -28,33 +19,6 @@ pub(crate) fn l_max(node: &ParameterNode, needed: usize) -> Result<usize, Parame
 /// The number of multipoles of a body of revolution of the size parameter `x`.
 pub(crate) fn terms(x: f64) -> usize {
     (x + 4.05 * x.powf(0.3333) + 2.0) as usize
-}
-
-/// The T-matrix of the body `Shape` of `node`, of this index relative to the medium in which the
-/// wave number is `k` 1/µm, with `lmax` and `mmax`: as they say in compat, and in sound runs with as
-/// many more as it takes to converge.
-///
-/// # Errors
-///
-/// For numbers of multipoles that cannot be had, and in sound runs for those that do not converge.
-pub(crate) fn read(
-    node: &ParameterNode,
-    shape: &Shape,
-    index: Complex64,
-    k: f64,
-) -> Result<TMatrix, ParameterError> {
-    let (needed, m_max) = (terms(k * shape.reach()), m_max(node)?);
-    if node.mode == Mode::Sound {
-        let orders = Orders::read(node, needed)?;
-        let compute = |level| converged::at_level(node, shape, index, k, m_max, level);
-        return converged::converged(node, orders, compute, |a, b| {
-            converged::distance(a.blocks.iter().enumerate(), b.blocks.iter().enumerate())
-        });
-    }
-    let l_max = l_max(node, needed)?;
-    TMatrix::of_revolution(shape, index, k, l_max, m_max.min(l_max)).ok_or_else(|| {
-        ParameterError::new("lmax", "too many multipoles for this body: they overflow")
-    })
 }
 
 /// The largest m that the parameter `mmax` allows.

@@ -38,7 +38,7 @@ impl TMatrix {
         (l_max, m_max): (usize, usize),
         nodes: usize,
     ) -> Option<Self> {
-        let surface = Surface::new(spheroid, index, k, l_max, nodes);
+        let surface = SpheroidSurface::new(spheroid, index, k, l_max, nodes);
         let mut blocks: Vec<ComplexMatrix> = Vec::new();
         let mut largest = 0.0f64;
         for m in 0..=m_max {
@@ -66,7 +66,7 @@ struct Waves {
 struct InsideRow(ExtendedRow, Option<ExtendedRow>);
 
 /// The surface with everything that does not depend on the order.
-struct Surface {
+struct SpheroidSurface {
     index: ExtendedComplex,
     l_max: usize,
     radial: Radial,
@@ -75,7 +75,7 @@ struct Surface {
     scales: Vec<(f64, f64)>,
 }
 
-impl Surface {
+impl SpheroidSurface {
     fn new(spheroid: Spheroid, index: Complex64, k: f64, l_max: usize, nodes: usize) -> Self {
         let points = waves::points(spheroid, k, nodes);
         let radial = Radial::new(&points, index.into(), l_max);
