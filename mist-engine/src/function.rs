@@ -50,7 +50,7 @@ pub struct FunctionValues {
     pub rows: Vec<OutputRow>,
     /// The colours, if the program has a section COLOR.
     pub colour: Option<ColourTable>,
-    /// Whether the rows have the columns of the loops.
+    /// True if the rows have the columns of the loops.
     shows: bool,
 }
 

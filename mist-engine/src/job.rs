@@ -13,7 +13,7 @@ use crate::{
     region::RegionError,
 };
 
-/// How a program is compiled and run.
+/// Options for compiling and running a program.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Sound physics, or NIST's numbers.
@@ -22,7 +22,7 @@ pub struct Options {
     pub job: String,
     /// Seed of the Monte Carlo modes.
     pub seed: u64,
-    /// What a run may cost.
+    /// Limits of a run.
     pub limits: Limits,
 }
 
@@ -82,7 +82,7 @@ impl Job {
         self.plan.program.files.samples().map(SourceText::as_str)
     }
 
-    /// Whether steps must run one after the other, because the program feeds results back.
+    /// True if steps must run one after the other, because the program feeds results back.
     pub fn runs_in_order(&self) -> bool {
         self.graph.in_order
     }

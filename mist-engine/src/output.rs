@@ -22,7 +22,7 @@ use crate::{
 pub enum OutputStream {
     /// The table: a line of names, then one line per step.
     Results,
-    /// What was run with which parameters.
+    /// Record of the run and its parameters.
     Listing,
     /// Every evaluated direction.
     Samples,
@@ -37,12 +37,12 @@ pub trait Sink: Send {
     /// If the text cannot be kept; the run ends.
     fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()>;
 
-    /// Whether the texts of `stream` are needed; if not, a run does not make them.
+    /// True if the texts of `stream` are needed; if not, a run does not make them.
     fn wants(&self, _stream: OutputStream) -> bool {
         true
     }
 
-    /// Whether the columns of the loops are needed by [`Sink::row`]; if not, and the texts of the
+    /// True if the columns of the loops are needed by [`Sink::row`]; if not, and the texts of the
     /// results are not needed either, they are empty.
     fn wants_loops(&self) -> bool {
         true
@@ -131,13 +131,13 @@ pub(crate) fn head(job: &Job) -> String {
 #[derive(Debug, Default)]
 pub struct TableLine {
     pub(crate) text: String,
-    /// Where the columns of the loops stand in the text.
+    /// Positions of the columns of the loops in the text.
     cells: Vec<Range<usize>>,
     outputs: Vec<f64>,
 }
 
 impl TableLine {
-    /// What the columns of the loops show.
+    /// Contents of the columns of the loops.
     pub fn loops(&self) -> impl Iterator<Item = &str> {
         self.cells.iter().map(|cell| &self.text[cell.clone()])
     }
@@ -155,10 +155,10 @@ pub(crate) struct Outputs<'j> {
     stack: Stack,
     /// The variables that the scope holds.
     values: Option<Arc<[Option<Value>]>>,
-    /// Whether an integral or an output has the name of a variable, and hides it until the end
+    /// True if an integral or an output has the name of a variable, and hides it until the end
     /// of the line.
     hides: bool,
-    /// Whether the numbers are formatted, and not only computed.
+    /// True if the numbers are formatted, and not only computed.
     formats: bool,
 }
 

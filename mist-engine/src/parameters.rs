@@ -91,7 +91,7 @@ impl ModelParameters {
         self.set(path, ParameterInput::Numbers(&[x]), library, mode, None)
     }
 
-    /// Whether `path` names a parameter of an object, which forgets what it was when it is set,
+    /// True if `path` names a parameter of an object, which forgets what it was when it is set,
     /// and not a setting of a table, of optical constants or of films.
     pub(crate) fn belongs_to_object(&self, path: &ParameterPath) -> bool {
         self.root.owns(path.from_model())
@@ -109,7 +109,7 @@ impl ModelParameters {
         self.root.hash_code()
     }
 
-    /// Whether both share all their memory, which says that they are equal.
+    /// True if both share all their memory, which says that they are equal.
     pub(crate) fn is_same_as(&self, other: &Self) -> bool {
         self.root.is_same_as(&other.root)
     }

@@ -111,12 +111,12 @@ pub(crate) struct ForPlan {
     pub(crate) entry: usize,
     /// Name of its column.
     pub(crate) title: String,
-    /// Whether the entry is a text for the model, shown as it is written.
+    /// True if the entry is a text for the model, shown as it is written.
     pub(crate) is_text: bool,
     pub(crate) from: ExpressionId,
     pub(crate) to: ExpressionId,
     pub(crate) by: ExpressionId,
-    /// Whether a bound reads results of earlier steps, so that it may come to an end later.
+    /// True if a bound reads results of earlier steps, so that it may come to an end later.
     pub(crate) fed_back: bool,
 }
 
@@ -132,7 +132,7 @@ pub(crate) struct ListPlan {
     pub(crate) statement: ListLoop,
     pub(crate) file: Arc<ListTable>,
     pub(crate) columns: Vec<ListColumn>,
-    /// Whether a cell reads results of earlier steps.
+    /// True if a cell reads results of earlier steps.
     pub(crate) fed_back: bool,
 }
 
@@ -142,7 +142,7 @@ pub(crate) struct ListColumn {
     pub(crate) entry: usize,
     /// The name in the file.
     pub(crate) title: String,
-    /// Whether the entry is a text for the model.
+    /// True if the entry is a text for the model.
     pub(crate) is_text: bool,
 }
 
@@ -203,7 +203,7 @@ pub(crate) struct OutputPlan {
 pub(crate) struct ErrorColumn {
     /// NAME.error.
     pub(crate) title: String,
-    /// Where expressions find it.
+    /// Slot in which expressions find it.
     pub(crate) slot: u32,
     /// Position of the integral in the program.
     pub(crate) integral: usize,
@@ -236,7 +236,7 @@ pub(crate) struct PlacedExpression {
     pub(crate) expr: Expr,
 }
 
-/// What a loop does to the table.
+/// Role of a loop in the table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum LoopRole {
     /// Its steps are wavelengths of one spectrum.

@@ -35,7 +35,7 @@ const SHORT: Duration = Duration::from_millis(250);
 /// Steps of the first block of a run whose steps stand alone: it shows what a step costs.
 const FIRST_STEPS: usize = 32;
 
-/// What a finished run has to tell.
+/// Summary of a finished run.
 #[derive(Debug, Default)]
 pub struct RunSummary {
     /// Steps of the loops.
@@ -121,7 +121,7 @@ impl Job {
         Ok(runner.summary)
     }
 
-    /// How many steps the loops have.
+    /// Number of steps of the loops.
     ///
     /// # Errors
     ///
@@ -139,7 +139,7 @@ impl Job {
         Ok(steps)
     }
 
-    /// What stands before the first step.
+    /// Text before the first step.
     pub fn head(&self, stream: OutputStream) -> String {
         match stream {
             OutputStream::Results => head(self),
@@ -148,7 +148,7 @@ impl Job {
         }
     }
 
-    /// What stands behind the last step of a run that took `seconds`.
+    /// Text after the last step of a run that took `seconds`.
     pub fn tail(stream: OutputStream, seconds: f64) -> String {
         if stream == OutputStream::Listing { listing::tail(seconds) } else { String::new() }
     }
@@ -312,7 +312,7 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// How much is done behind `step`.
+    /// Progress after `step`.
     fn fraction(&self, step: &Step) -> f64 {
         self.part.as_ref().map_or(step.fraction, |part| {
             (step.index + 1 - part.start) as f64 / (part.end - part.start) as f64
@@ -396,7 +396,7 @@ impl<'a> Runner<'a> {
         emit((self.job, self.sink), step, &self.line, finished, &mut self.listing)
     }
 
-    /// What the journal has of the first steps of `block`.
+    /// Results in the journal for the first steps of `block`.
     fn recalled<'s>(
         &mut self,
         block: impl Iterator<Item = &'s Step>,

@@ -25,11 +25,11 @@ pub(crate) struct Sweep<'j> {
     states: Vec<LoopState>,
     /// The first loop that has moved since the loops were last written; all behind it have too.
     moved: usize,
-    /// Whether the loops were never written.
+    /// True if the loops were never written.
     is_new: bool,
     /// The contents written last.
     written: Vec<LoopWrite>,
-    /// How often each loop was advanced since it was reset.
+    /// Number of advances of each loop since its reset.
     counts: Vec<u64>,
 }
 
@@ -71,7 +71,7 @@ impl<'j> Sweep<'j> {
         Ok(false)
     }
 
-    /// What the loops that have moved since the last call write into entries: in the beginning as
+    /// Writes into entries by the loops that have advanced since the last call: in the beginning as
     /// they are declared, later the last one first, as they have moved.
     pub(crate) fn write(
         &mut self,
@@ -109,7 +109,7 @@ impl<'j> Sweep<'j> {
         cells
     }
 
-    /// How far the first declared loop is, from 0 to 1.
+    /// Progress of the first declared loop, from 0 to 1.
     pub(crate) fn fraction(&self) -> f64 {
         match (self.plans.first(), self.states.first()) {
             (Some(LoopPlan::For(_)), Some(LoopState::For(state))) => state.fraction(),
@@ -118,7 +118,7 @@ impl<'j> Sweep<'j> {
         }
     }
 
-    /// How often each loop was advanced: the place of the step in the nest.
+    /// Number of advances of each loop: the position of the step in the nest.
     pub(crate) fn counts(&self) -> &[u64] {
         &self.counts
     }

@@ -1,4 +1,4 @@
-//! Where the estimated errors of integrals stand in the table.
+//! Positions of the estimated errors of integrals in the table.
 //!
 //! The column NAME.error of the integral NAME stands directly after the first output that shows
 //! this integral and nothing else; errors of integrals that no output shows so stand after all
@@ -33,7 +33,7 @@ impl ErrorColumns {
         self.0.iter()
     }
 
-    /// Where expressions find them.
+    /// Slots in which expressions find them.
     pub(crate) fn slots(&self) -> impl Iterator<Item = u32> {
         self.0.iter().map(|column| column.slot)
     }

@@ -144,7 +144,7 @@ impl<'a> Fold<'a> {
     }
 }
 
-/// How spectra on `grid` are brought to 1 nm, in the words of the table's header.
+/// Interpolation of spectra on `grid` to 1 nm, as in the header of the table.
 pub(crate) fn interpolation(grid: &Grid, outside: Extrapolation) -> String {
     let how = if grid.is_one_nanometre() {
         "none"

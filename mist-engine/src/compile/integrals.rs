@@ -48,7 +48,7 @@ fn note_unknown(integral: &Integral, name: &SourceText, binder: &mut Binder<'_>)
     binder.note(fault("integral/unknown-parameter", name, message).help(help));
 }
 
-/// Whether `name = value` looks like the beginning of another integral: its value is a shape.
+/// True if `name = value` looks like the beginning of another integral: its value is a shape.
 fn integral_starts(integral: &Integral, name: &SourceText) -> bool {
     integral
         .parameters

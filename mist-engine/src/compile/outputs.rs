@@ -78,7 +78,7 @@ pub(super) fn errors(
     Some(ErrorColumns::new(integrals, outputs, |name| names.slot(name)))
 }
 
-/// Whether a loop changes the variable `name`.
+/// True if a loop changes the variable `name`.
 fn varies(program: &Program, library: &DataFiles, name: &str) -> bool {
     program.loops.iter().any(|each| match each {
         Loop::For(statement) => statement.variable.as_str().eq_ignore_ascii_case(name),

@@ -32,12 +32,12 @@ pub(crate) struct ParameterContext<'a> {
     pub(crate) mode: Mode,
     /// The wavelength for which the objects around were evaluated last, if any.
     pub(crate) evaluated_at: Option<f64>,
-    /// Whether the parameter belongs to an object inside of the model.
+    /// True if the parameter belongs to an object inside of the model.
     pub(crate) is_nested: bool,
 }
 
 impl ParameterContext<'_> {
-    /// Whether numbers are stored as they are, not as their texts are read.
+    /// True if numbers are stored as they are, not as their texts are read.
     pub(super) fn keeps_bits(&self, values: &[f64]) -> bool {
         self.mode == Mode::Sound && values.iter().all(|x| x.is_finite())
     }

@@ -80,7 +80,7 @@ impl ObjectState {
             .help_if(did_you_mean(name, known))
     }
 
-    /// Whether `path` names a parameter of this object or of one in it.
+    /// True if `path` names a parameter of this object or of one in it.
     pub(crate) fn owns(&self, path: RelativePath<'_>) -> bool {
         let Some((at, _)) = path.find_in(self.class) else { return false };
         match (path.rest(), &self.slots[at]) {
@@ -108,7 +108,7 @@ impl ObjectState {
         }
     }
 
-    /// Whether an index in here remembers a value for its last wavelength.
+    /// True if an index in here remembers a value for its last wavelength.
     pub(crate) fn remembers(&self) -> bool {
         self.slots.iter().any(|slot| match slot {
             ParameterState::Member(object) => object.remembers(),

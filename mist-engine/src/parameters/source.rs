@@ -1,4 +1,4 @@
-//! Where the values of a table come from: constants, formulas, columns of files.
+//! Sources of the values of a table: constants, formulas, columns of files.
 
 use std::{
     hash::{Hash, Hasher},
@@ -28,7 +28,7 @@ pub(crate) enum TableSource {
     Parametric { file: String, formula: Arc<FormulaFile> },
 }
 
-/// How a source is read.
+/// Settings for reading a source.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Interpolation {
     pub(crate) axis: AbscissaScale,

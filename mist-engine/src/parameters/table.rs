@@ -18,7 +18,7 @@ use super::{
     source::{Interpolation, TableSource},
 };
 
-/// What a table was made from.
+/// Inputs from which a table was made.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum TableOrigin {
     /// A text; it names the source, for files do not change during a run.

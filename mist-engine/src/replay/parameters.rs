@@ -62,7 +62,7 @@ impl Replay<'_> {
         }
     }
 
-    /// Whether the parameters after a number depend on nothing but the number and the parameters
+    /// True if the parameters after a number depend on nothing but the number and the parameters
     /// before: NIST's optical constants also remember the last evaluation.
     fn is_memoized(&self, at: usize) -> bool {
         let path = self.job.plan.entries[at].parameter.as_ref();

@@ -47,7 +47,7 @@ pub(super) struct ParallelReplay<'a> {
 }
 
 impl<'a> ParallelReplay<'a> {
-    /// Whether the steps behind `reader` are independent, and there are threads for them.
+    /// True if the steps behind `reader` are independent, and there are threads for them.
     pub(super) fn are_possible(reader: &StepReader<'a>) -> bool {
         rayon::current_num_threads() > 1 && reader.steps_are_independent()
     }

@@ -92,7 +92,7 @@ impl<'a> StepReader<'a> {
         if self.steps_are_independent() { self.skip_to(to) } else { Ok(()) }
     }
 
-    /// Whether the replay, behind its first step, may go on at any step.
+    /// True if the replay, behind its first step, may go on at any step.
     pub(super) fn steps_are_independent(&self) -> bool {
         let independence = self.job.graph.independence.as_ref();
         independence.is_some_and(|all| all.holds_for(self.replay.parameters()))

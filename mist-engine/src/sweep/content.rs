@@ -29,6 +29,6 @@ pub(crate) struct LoopContext<'a, 'j> {
     pub(crate) plan: &'j Plan,
     pub(crate) values: &'a mut NodeValues<'j>,
     pub(crate) mode: Mode,
-    /// Whether the columns of the loops are needed.
+    /// True if the columns of the loops are needed.
     pub(crate) shows: bool,
 }
