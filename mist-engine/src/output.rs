@@ -3,7 +3,7 @@
 use std::{io, ops::Range, sync::Arc};
 
 use mist_format::{
-    expr::{Expr, Stack, Value},
+    expr::{Expr, OperandStack, Value},
     number::push_list,
     program::SourceText,
 };
@@ -152,7 +152,7 @@ impl TableLine {
 pub(crate) struct Outputs<'j> {
     job: &'j Job,
     pub(crate) scope: SlotValues,
-    stack: Stack,
+    stack: OperandStack,
     /// The variables that the scope holds.
     values: Option<Arc<[Option<Value>]>>,
     /// True if an integral or an output has the name of a variable, and hides it until the end
@@ -171,7 +171,7 @@ impl<'j> Outputs<'j> {
         let mut results = job.plan.results();
         let hides =
             results.any(|slot| job.plan.reads.contains(&slot) || predefined.contains(&slot));
-        Self { job, scope, stack: Stack::default(), values: None, hides, formats }
+        Self { job, scope, stack: OperandStack::default(), values: None, hides, formats }
     }
 
     /// Puts the line of `step`, whose integrals came out as `integrals`, into `line`.

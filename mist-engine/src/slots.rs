@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use mist_format::{
-    expr::{self, EvalError, Expr, Stack, Value},
+    expr::{self, EvalError, Expr, OperandStack, Value},
     table::TableError,
 };
 
@@ -87,16 +87,24 @@ impl SlotValues {
 
     /// The number of an expression that has one without general evaluation.
     #[inline]
-    pub(crate) fn short_number(&mut self, expr: &Expr, stack: &mut Stack) -> Option<f64> {
+    pub(crate) fn short_number(&mut self, expr: &Expr, stack: &mut OperandStack) -> Option<f64> {
         expr.short_number(self, stack)
     }
 
-    pub(crate) fn value(&mut self, expr: &Expr, stack: &mut Stack) -> Result<Value, EvalError> {
+    pub(crate) fn value(
+        &mut self,
+        expr: &Expr,
+        stack: &mut OperandStack,
+    ) -> Result<Value, EvalError> {
         expr.eval(self, stack)
     }
 
     /// The last element of the value: what is taken wherever one number is wanted.
-    pub(crate) fn number(&mut self, expr: &Expr, stack: &mut Stack) -> Result<f64, EvalError> {
+    pub(crate) fn number(
+        &mut self,
+        expr: &Expr,
+        stack: &mut OperandStack,
+    ) -> Result<f64, EvalError> {
         expr.number(self, stack)
     }
 

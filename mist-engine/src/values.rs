@@ -1,7 +1,7 @@
 //! The values of a job's dependency graph during a replay: one memo per node.
 
 use mist_format::{
-    expr::{EvalError, Expr, Stack, Value},
+    expr::{EvalError, Expr, OperandStack, Value},
     program::SourceText,
 };
 
@@ -18,7 +18,7 @@ pub(crate) struct NodeValues<'j> {
     plan: &'j Plan,
     graph: &'j DependencyGraph,
     slots: SlotValues,
-    stack: Stack,
+    stack: OperandStack,
     /// The nodes whose memos do not hold.
     stale: NodeSet,
     /// The memos of the expressions.
@@ -37,7 +37,7 @@ impl<'j> NodeValues<'j> {
             plan,
             graph,
             slots,
-            stack: Stack::default(),
+            stack: OperandStack::default(),
             stale: NodeSet::all(graph.len()),
             expressions: vec![None; plan.expressions.len()],
         }

@@ -4,9 +4,9 @@
 //! (see `scan.rs`) and records its operations. Values are vectors of at least one number.
 //!
 //! ```
-//! use mist_format::{Dialect, expr::{Expr, NoNames, Stack}};
+//! use mist_format::{Dialect, expr::{Expr, NoNames, OperandStack}};
 //! let area = Expr::compile("4*atan(1)*2^2", Dialect::Sound).unwrap();
-//! let value = area.number(&mut NoNames, &mut Stack::default()).unwrap();
+//! let value = area.number(&mut NoNames, &mut OperandStack::default()).unwrap();
 //! assert!((value - 4.0 * std::f64::consts::PI).abs() < 1e-15);
 //! ```
 
@@ -24,7 +24,7 @@ mod scope;
 mod value;
 
 pub use error::{EvalError, EvalErrorKind, ExprError, ExprErrorKind};
-pub use eval::Stack;
+pub use eval::OperandStack;
 pub use expression::Expr;
 pub use functions::Function;
 pub use limits::MAX_TOKENS;

@@ -1,7 +1,7 @@
 //! The conformance programs: what NIST's program runs is read, what it refuses or never
 //! finishes reading is refused in the right line.
 
-use mist_format::expr::{Expr, Scope, Stack};
+use mist_format::expr::{Expr, OperandStack, Scope};
 use mist_format::program::{Program, VariableKind};
 use mist_format::{Dialect, LineIndex, program};
 use std::collections::HashMap;
@@ -150,7 +150,7 @@ impl Scope for Values<'_> {
 fn evaluate(text: &str, known: &HashMap<String, Vec<f64>>) -> Vec<f64> {
     let expr = Expr::compile(text, Dialect::Compat).unwrap_or_else(|e| panic!("{text}: {e}"));
     let mut scope = Values(expr.names().iter().map(|name| known.get(name)).collect());
-    let value = expr.eval(&mut scope, &mut Stack::default());
+    let value = expr.eval(&mut scope, &mut OperandStack::default());
     value.unwrap_or_else(|e| panic!("{text}: {e}")).as_slice().to_vec()
 }
 

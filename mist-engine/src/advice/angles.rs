@@ -10,7 +10,7 @@ use mist_format::{
 
 use super::{
     origin::Element,
-    reading::{Reading, Source, Unit},
+    reading::{Reading, ReadingSource, Unit},
     words::{Kind, Word, words},
 };
 use crate::{
@@ -32,7 +32,7 @@ pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
         let entry = job.plan.entries.iter().rev().find(|entry| entry.slot == Some(slot));
         if let Some(entry) = entry {
             let text = &job.plan.program.variables[entry.variable].value;
-            found.push(angle(name.into(), text, Source::Slot(slot), Element::Last, most));
+            found.push(angle(name.into(), text, ReadingSource::Slot(slot), Element::Last, most));
         }
     }
     let settings = |plan| settings_of(&job.plan, plan);
@@ -44,7 +44,7 @@ pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
 fn angle<'j>(
     what: String,
     text: &'j SourceText,
-    source: Source<'j>,
+    source: ReadingSource<'j>,
     element: Element,
     most: f64,
 ) -> Reading<'j> {
@@ -63,7 +63,7 @@ fn setting_angles<'j>(
 ) -> Vec<Reading<'j>> {
     let reading = |what: &str, element, most| {
         let what = format!("{what} of {}", plan.name);
-        angle(what, &setting.text, Source::Expr(all.expression(setting.expr)), element, most)
+        angle(what, &setting.text, ReadingSource::Expr(all.expression(setting.expr)), element, most)
     };
     // A cone may stand below the horizon in part; a direction or a corner may not.
     let polar = if matches!(plan.shape, ApertureShape::Circle | ApertureShape::Annulus) {
@@ -97,7 +97,7 @@ fn parameters(job: &Job) -> impl Iterator<Item = Reading<'_>> {
         let name = entry.parameter_name()?;
         all().find(|parameter| parameter.name == name && parameter.unit == "rad")?;
         let text = &job.plan.program.variables[entry.variable].value;
-        let source = Source::Slot(entry.slot?);
+        let source = ReadingSource::Slot(entry.slot?);
         Some(angle(format!("the parameter {name}"), text, source, Element::Last, TAU))
     })
 }

@@ -33,8 +33,8 @@ pub(super) struct Origin {
 /// Literal of the variable `name`, whose value is `value`.
 pub(super) fn of_variable(job: &Job, name: &str, value: f64) -> Option<Origin> {
     Some(match source(job, name, value)? {
-        Source::Text(text) => origin(job, &text, Element::Last, value),
-        Source::File(file) => whole(&file),
+        ValueOrigin::Text(text) => origin(job, &text, Element::Last, value),
+        ValueOrigin::File(file) => whole(&file),
     })
 }
 
@@ -49,12 +49,12 @@ pub(super) fn origin(job: &Job, text: &SourceText, element: Element, value: f64)
         let all = words(text.as_str());
         match &all[..] {
             [Word { kind: Kind::Name, text: name, .. }] => match source(job, name, value) {
-                Some(Source::Text(next)) => {
+                Some(ValueOrigin::Text(next)) => {
                     // A loop gives plain numbers; a variable may be a vector itself.
                     element = element.or(Some(Element::Last));
                     text = next;
                 }
-                Some(Source::File(file)) => return whole(&file),
+                Some(ValueOrigin::File(file)) => return whole(&file),
                 None => return whole(&text),
             },
             [minus @ .., number] if minus.iter().all(|word| word.is("-") || word.is("+")) => {
@@ -116,13 +116,13 @@ fn balanced(words: &[Word<'_>]) -> bool {
     }) && depth == 0
 }
 
-enum Source {
+enum ValueOrigin {
     Text(SourceText),
     File(SourceText),
 }
 
 /// Source of the value of the variable `name`: a loop, or its entry.
-fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
+fn source(job: &Job, name: &str, value: f64) -> Option<ValueOrigin> {
     let slot = job.plan.names.find(name)?;
     let at = job.plan.entries.iter().rposition(|entry| entry.slot == Some(slot))?;
     let writer = job.plan.loops.iter().rev().find(|each| each.entries().contains(&at));
@@ -134,12 +134,12 @@ fn source(job: &Job, name: &str, value: f64) -> Option<Source> {
                 (number.unwrap_or(f64::INFINITY) - value).abs()
             };
             let from = near(&statement.from) < near(&statement.to);
-            Source::Text(if from { statement.from.clone() } else { statement.to.clone() })
+            ValueOrigin::Text(if from { statement.from.clone() } else { statement.to.clone() })
         }
-        Some(LoopPlan::List(plan)) => Source::File(plan.statement.file.clone()),
-        None => {
-            Source::Text(job.plan.program.variables[job.plan.entries[at].variable].value.clone())
-        }
+        Some(LoopPlan::List(plan)) => ValueOrigin::File(plan.statement.file.clone()),
+        None => ValueOrigin::Text(
+            job.plan.program.variables[job.plan.entries[at].variable].value.clone(),
+        ),
     })
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use mist_format::{
     Diagnostic,
-    expr::{Expr, Stack},
+    expr::{Expr, OperandStack},
     program::SourceText,
 };
 
@@ -12,7 +12,7 @@ use super::origin::{Element, Origin, is_converted, is_variable_converted, of_var
 use crate::{Job, slots::SlotValues};
 
 /// Place of the number.
-pub(super) enum Source<'j> {
+pub(super) enum ReadingSource<'j> {
     Slot(u32),
     Expr(&'j Expr),
     Number(f64),
@@ -32,7 +32,7 @@ pub(super) struct Reading<'j> {
     pub(super) what: String,
     pub(super) unit: Unit,
     pub(super) text: &'j SourceText,
-    pub(super) source: Source<'j>,
+    pub(super) source: ReadingSource<'j>,
     pub(super) element: Element,
     /// Larger values are not likely.
     pub(super) most: f64,
@@ -43,9 +43,9 @@ impl<'j> Reading<'j> {
     /// Looks at the value in this step.
     pub(super) fn see(&mut self, scope: &mut SlotValues) {
         let value = match &self.source {
-            Source::Number(x) => Some((*x).into()),
-            Source::Slot(slot) => scope.get(*slot).cloned(),
-            Source::Expr(expr) => scope.value(expr, &mut Stack::default()).ok(),
+            ReadingSource::Number(x) => Some((*x).into()),
+            ReadingSource::Slot(slot) => scope.get(*slot).cloned(),
+            ReadingSource::Expr(expr) => scope.value(expr, &mut OperandStack::default()).ok(),
         };
         let Some(value) = value else { return };
         let all = value.as_slice();
@@ -65,7 +65,7 @@ impl<'j> Reading<'j> {
         }
         let written = || origin(job, self.text, self.element, self.extreme);
         let (origin, converted) = match self.source {
-            Source::Slot(slot) => {
+            ReadingSource::Slot(slot) => {
                 let name = job.plan.names.name(slot);
                 let found = of_variable(job, name, self.extreme);
                 (found.unwrap_or_else(written), is_variable_converted(job, name))

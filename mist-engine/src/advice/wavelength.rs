@@ -4,7 +4,7 @@ use mist_format::number::whole_number;
 
 use super::{
     origin::Element,
-    reading::{Reading, Source, Unit},
+    reading::{Reading, ReadingSource, Unit},
 };
 use crate::Job;
 
@@ -20,14 +20,14 @@ pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
         }
         let text = &job.plan.program.variables[entry.variable].value;
         let source = match entry.slot {
-            Some(slot) => Source::Slot(slot),
-            None => Source::Number(whole_number(text.as_str())?),
+            Some(slot) => ReadingSource::Slot(slot),
+            None => ReadingSource::Number(whole_number(text.as_str())?),
         };
         Some(reading(name.to_owned(), text, source))
     });
     let colour = job.plan.colour.as_ref().and_then(|colour| {
         let placed = &colour.wavelength;
-        Some(reading("wavelength".into(), placed.text.as_ref()?, Source::Expr(&placed.expr)))
+        Some(reading("wavelength".into(), placed.text.as_ref()?, ReadingSource::Expr(&placed.expr)))
     });
     model.chain(colour).collect()
 }
@@ -35,7 +35,7 @@ pub(super) fn readings(job: &Job) -> Vec<Reading<'_>> {
 fn reading<'j>(
     what: String,
     text: &'j mist_format::program::SourceText,
-    source: Source<'j>,
+    source: ReadingSource<'j>,
 ) -> Reading<'j> {
     let (unit, element) = (Unit::Micrometres, Element::Last);
     Reading { what, unit, text, source, element, most: LONGEST_UM, extreme: 0.0 }

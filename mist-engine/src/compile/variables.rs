@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use mist_format::{
     Diagnostic, Program,
-    expr::{Expr, Stack, Value},
+    expr::{Expr, OperandStack, Value},
     program::{ProgramVariable, VariableKind},
 };
 use scattering::Class;
@@ -75,7 +75,7 @@ pub(crate) fn initial_values(
     mut note: impl FnMut(Diagnostic),
 ) -> Vec<(u32, Value)> {
     let mut values = SlotValues::new(names.len(), library.clone());
-    let mut stack = Stack::default();
+    let mut stack = OperandStack::default();
     let mut initial = Vec::new();
     // Names whose own entry is wrong: their users are not blamed for it.
     let mut broken = BTreeSet::new();

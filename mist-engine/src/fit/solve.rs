@@ -6,7 +6,13 @@ use std::collections::BTreeMap;
 use rmpfit::{MPConfig, MPError, MPFitter, MPPar, MPResult, MPSide, MPSuccess};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-use super::{Fit, FitError, FitSettings, Fitted, MeasuredTable, Residuals, covariance};
+use super::{
+    covariance,
+    error::FitError,
+    measured::MeasuredTable,
+    result::{Fit, Fitted, Residuals},
+    settings::FitSettings,
+};
 use crate::{
     Control, Failure,
     function::{FunctionValues, OutputRow, ProgramFunction},

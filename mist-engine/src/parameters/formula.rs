@@ -3,7 +3,7 @@
 use std::{fmt, sync::Arc};
 
 use mist_format::{
-    expr::{self, Expr, Stack},
+    expr::{self, Expr, OperandStack},
     table::TableError,
 };
 use scattering::{optics::FormulaFn, spec::ParameterKind};
@@ -73,12 +73,12 @@ pub(crate) fn columns(
         return Err(SetError::value(problem));
     }
     let scope = Variable { x: [0.5], library: library.clone() };
-    expr.eval(&mut scope.clone(), &mut Stack::default())
+    expr.eval(&mut scope.clone(), &mut OperandStack::default())
         .map_err(|error| SetError::value(format!("{text:?}: {error}")))?;
     let expr = expr.clone();
     Ok(Arc::new(move |x| {
         let mut scope = Variable { x: [x], library: scope.library.clone() };
-        expr.eval(&mut scope, &mut Stack::default())
+        expr.eval(&mut scope, &mut OperandStack::default())
             .map_or(f64::NAN, |value| value.as_slice().get(element).copied().unwrap_or(0.0))
     }))
 }

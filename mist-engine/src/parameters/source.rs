@@ -30,34 +30,34 @@ pub(crate) enum TableSource {
 
 /// Settings for reading a source.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Interpolation {
+pub(crate) struct ColumnInterpolation {
     pub(crate) axis: AbscissaScale,
     pub(crate) rise: TableInterpolation,
     /// Parameters of a formula file that differ from the file's own values.
     pub(crate) parameters: Vec<(String, f64)>,
 }
 
-impl Interpolation {
+impl ColumnInterpolation {
     /// The parameters with the bits of their values.
     fn bits(&self) -> impl Iterator<Item = (&str, u64)> {
         self.parameters.iter().map(|(name, value)| (name.as_str(), value.to_bits()))
     }
 }
 
-impl Hash for Interpolation {
+impl Hash for ColumnInterpolation {
     fn hash<H: Hasher>(&self, state: &mut H) {
         (self.axis as u8, self.rise as u8).hash(state);
         self.bits().for_each(|parameter| parameter.hash(state));
     }
 }
 
-impl PartialEq for Interpolation {
+impl PartialEq for ColumnInterpolation {
     fn eq(&self, other: &Self) -> bool {
         self.axis == other.axis && self.rise == other.rise && self.bits().eq(other.bits())
     }
 }
 
-impl Eq for Interpolation {}
+impl Eq for ColumnInterpolation {}
 
 impl TableSource {
     /// The source that a table's text names, and the column it asks for.
@@ -112,7 +112,7 @@ impl TableSource {
     pub(crate) fn table(
         &self,
         column: usize,
-        reading: &Interpolation,
+        reading: &ColumnInterpolation,
         library: &DataFiles,
     ) -> Result<RealFunction, SetError> {
         let element = column.checked_sub(2).ok_or_else(|| {
@@ -163,7 +163,7 @@ fn points(
     file: &str,
     table: &ColumnTable,
     element: usize,
-    reading: &Interpolation,
+    reading: &ColumnInterpolation,
 ) -> Result<RealFunction, SetError> {
     let column = element + 1;
     if column >= table.columns() {

@@ -15,7 +15,7 @@ use scattering::{
 use super::{
     error::SetError,
     input::{ParameterContext, ParameterInput},
-    source::{Interpolation, TableSource},
+    source::{ColumnInterpolation, TableSource},
 };
 
 /// Inputs from which a table was made.
@@ -33,7 +33,7 @@ pub(crate) struct TableState {
     origin: TableOrigin,
     source: TableSource,
     column: usize,
-    reading: Interpolation,
+    reading: ColumnInterpolation,
     table: RealFunction,
 }
 
@@ -71,7 +71,7 @@ impl TableState {
             origin: TableOrigin::Numbers(values.iter().map(|x| x.to_bits()).collect()),
             source: TableSource::Constant(values.to_vec()),
             column,
-            reading: Interpolation::default(),
+            reading: ColumnInterpolation::default(),
             table: RealFunction::constant(value),
         }
     }
@@ -82,7 +82,7 @@ impl TableState {
         column: usize,
         context: &ParameterContext<'_>,
     ) -> Result<Self, SetError> {
-        let reading = Interpolation::default();
+        let reading = ColumnInterpolation::default();
         let table = source.table(column, &reading, context.library)?;
         Ok(Self { origin: TableOrigin::Text(text.into()), source, column, reading, table })
     }
@@ -94,7 +94,7 @@ impl TableState {
         context: &ParameterContext<'_>,
     ) -> Result<(), SetError> {
         let (axis, rise) = (self.reading.axis, self.reading.rise);
-        let reading = Interpolation { axis, rise, parameters: Vec::new() };
+        let reading = ColumnInterpolation { axis, rise, parameters: Vec::new() };
         let text = match input {
             ParameterInput::Numbers(values) if context.keeps_bits(values) => {
                 *self = Self { reading, ..Self::of_numbers(values, 2) };

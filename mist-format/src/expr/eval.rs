@@ -10,7 +10,7 @@ use crate::table::TableError;
 
 /// Working memory of evaluations; reuse it, so that they need none of their own.
 #[derive(Clone, Debug, Default)]
-pub struct Stack {
+pub struct OperandStack {
     values: Vec<f64>,
     lists: Vec<f64>,
     frames: Vec<StackFrame>,
@@ -24,7 +24,7 @@ struct StackFrame {
     lists: usize,
 }
 
-impl Stack {
+impl OperandStack {
     /// First element and the others of the value of `expr`.
     pub(super) fn run(
         &mut self,

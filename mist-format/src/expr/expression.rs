@@ -2,7 +2,7 @@
 
 use super::compiled::CompiledExpr;
 use super::error::{EvalError, ExprError};
-use super::eval::Stack;
+use super::eval::OperandStack;
 use super::scalar;
 use super::scan::{Rules, compile};
 use super::scope::Scope;
@@ -67,7 +67,11 @@ impl Expr {
     /// # Errors
     /// Names that the scope does not know, functions with a wrong number of arguments, files
     /// that cannot be read; under the sound rules vectors where a single number is needed.
-    pub fn eval(&self, scope: &mut impl Scope, stack: &mut Stack) -> Result<Value, EvalError> {
+    pub fn eval(
+        &self,
+        scope: &mut impl Scope,
+        stack: &mut OperandStack,
+    ) -> Result<Value, EvalError> {
         match self.short_number(scope, stack) {
             Some(x) => Ok(x.into()),
             None => stack.run(&self.0, scope).map(|(first, rest)| Value::new(first, rest)),
@@ -78,7 +82,11 @@ impl Expr {
     ///
     /// # Errors
     /// As for [`Expr::eval`].
-    pub fn number(&self, scope: &mut impl Scope, stack: &mut Stack) -> Result<f64, EvalError> {
+    pub fn number(
+        &self,
+        scope: &mut impl Scope,
+        stack: &mut OperandStack,
+    ) -> Result<f64, EvalError> {
         match self.short_number(scope, stack) {
             Some(x) => Ok(x),
             None => {
@@ -89,7 +97,7 @@ impl Expr {
 
     /// Computes the value by the short program, if it is a single number of single numbers and
     /// nothing fails; otherwise use [`Expr::eval`].
-    pub fn short_number(&self, scope: &mut impl Scope, stack: &mut Stack) -> Option<f64> {
+    pub fn short_number(&self, scope: &mut impl Scope, stack: &mut OperandStack) -> Option<f64> {
         self.0
             .short
             .as_ref()

@@ -40,7 +40,7 @@ fn value(text: &str, dialect: Dialect) -> Result<Value, String> {
     let expr = Expr::compile(text, dialect).map_err(|error| error.to_string())?;
     let values = expr.names().iter().map(|name| known.get(name.as_str()).cloned());
     let mut scope = Names(values.map(Option::unwrap_or_default).collect());
-    expr.eval(&mut scope, &mut Stack::default()).map_err(|error| error.to_string())
+    expr.eval(&mut scope, &mut OperandStack::default()).map_err(|error| error.to_string())
 }
 
 fn number(text: &str) -> f64 {
@@ -262,7 +262,7 @@ fn the_library_skips_blanks_and_wants_operators() {
     let run = |text: &str| {
         let expr = Expr::compile_library(text).map_err(|error| error.to_string())?;
         let mut scope = Names(vec![vec![0.5]; expr.names().len()]);
-        expr.eval(&mut scope, &mut Stack::default()).map_err(|error| error.to_string())
+        expr.eval(&mut scope, &mut OperandStack::default()).map_err(|error| error.to_string())
     };
     assert_eq!(run(" 1 / 4 ").unwrap().as_slice(), [0.25]);
     assert_eq!(run("- 2 ^ 2").unwrap().as_slice(), [-4.0]);
@@ -290,7 +290,7 @@ fn errors_point_at_the_text() {
     assert_eq!(place("a+µ"), "µ");
     let text = "1+sinc(2)";
     let expr = Expr::compile(text, Dialect::Sound).unwrap();
-    let error = expr.eval(&mut NoNames, &mut Stack::default()).unwrap_err();
+    let error = expr.eval(&mut NoNames, &mut OperandStack::default()).unwrap_err();
     assert_eq!(error.span.of(text), "sinc(2)");
     assert!(error.diagnostic([]).help.unwrap().contains("sin"));
 }
@@ -310,7 +310,7 @@ fn a_scope_may_choose_its_own_slots() {
     let mut expr = Expr::compile("a-b", Dialect::Sound).unwrap();
     expr.bind(|name| if name == "a" { 1 } else { 0 });
     let mut scope = Names(vec![vec![1.0], vec![5.0]]);
-    assert_eq!(expr.number(&mut scope, &mut Stack::default()).unwrap(), 4.0);
+    assert_eq!(expr.number(&mut scope, &mut OperandStack::default()).unwrap(), 4.0);
 }
 
 #[test]
@@ -345,7 +345,7 @@ fn short_programs_give_what_the_general_machine_gives() {
                     let Ok(mut expr) = Expr::compile(&text, Dialect::Compat) else { continue };
                     expr.bind(|name| names.iter().position(|n| *n == name).unwrap_or(3) as u32);
                     let mut scope = Names(vec![vec![2.9], vec![2.5], vec![5.4, 6.6], vec![]]);
-                    let mut stack = Stack::default();
+                    let mut stack = OperandStack::default();
                     let quick = expr.eval(&mut scope, &mut stack);
                     short += u32::from(expr.without_short_program());
                     let general = expr.eval(&mut scope, &mut stack);

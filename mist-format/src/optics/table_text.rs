@@ -2,7 +2,7 @@
 
 use super::error::OpticsError;
 use crate::dialect::{Dialect, TextDeviation};
-use crate::expr::{Expr, NoNames, Stack, Value};
+use crate::expr::{Expr, NoNames, OperandStack, Value};
 use crate::number::number_prefix;
 
 /// A Table parameter as text.
@@ -76,7 +76,7 @@ fn is_file_name(word: &str) -> bool {
 /// The value of an expression that needs neither names nor files.
 pub(super) fn constant(text: &str) -> Option<Value> {
     let expr = Expr::compile_library(text).ok()?;
-    expr.eval(&mut NoNames, &mut Stack::default()).ok()
+    expr.eval(&mut NoNames, &mut OperandStack::default()).ok()
 }
 
 #[cfg(test)]

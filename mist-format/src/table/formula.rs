@@ -11,7 +11,7 @@ use super::columns::ColumnTable;
 use super::error::TableError;
 use super::limits::MAX_FORMULA_ROWS;
 use super::lines::{SourceLine, lines, open_comment};
-use crate::expr::{Expr, Scope, Stack, Value};
+use crate::expr::{Expr, OperandStack, Scope, Value};
 use std::collections::HashMap;
 
 /// A formula file.
@@ -168,7 +168,7 @@ impl Scope for NameValues {
 
 fn evaluate(expr: &Expr, names: &HashMap<&str, f64>) -> Result<Value, TableError> {
     let known = expr.names().iter().map(|name| names.get(name.as_str()).copied()).collect();
-    expr.eval(&mut NameValues(known), &mut Stack::default()).map_err(|error| {
+    expr.eval(&mut NameValues(known), &mut OperandStack::default()).map_err(|error| {
         TableError::Expression { expression: expr.text().into(), reason: error.to_string() }
     })
 }

@@ -6,7 +6,7 @@
 #![allow(unreachable_pub, reason = "the fuzz targets see it from another crate")]
 
 use mist_format::convert::convert;
-use mist_format::expr::{Expr, Scope, Stack};
+use mist_format::expr::{Expr, OperandStack, Scope};
 use mist_format::number::PrintfFormat;
 use mist_format::optics::{IndexText, StackText, TableText};
 use mist_format::program::{MAX_PROGRAM_BYTES, Program};
@@ -84,7 +84,7 @@ where
     E: std::fmt::Display,
 {
     let expr = compiled.map_err(|error| assert!(!error.to_string().is_empty())).ok()?;
-    match expr.eval(&mut FourNames, &mut Stack::default()) {
+    match expr.eval(&mut FourNames, &mut OperandStack::default()) {
         Ok(value) => Some(value.to_text()),
         Err(error) => {
             assert!(fits(error.span, text), "{error:?} of {text}");
@@ -147,7 +147,7 @@ pub fn optics(text: &str) {
     for dialect in DIALECTS {
         match IndexText::parse(text, dialect) {
             Ok(IndexText::Formula { columns, .. }) => {
-                let _ = columns.eval(&mut FourNames, &mut Stack::default());
+                let _ = columns.eval(&mut FourNames, &mut OperandStack::default());
             }
             Ok(IndexText::File { column, .. }) => assert!(column < usize::MAX, "k stands behind n"),
             Ok(IndexText::Constant { .. }) => {}
