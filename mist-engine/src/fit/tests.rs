@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use std::collections::BTreeMap;
+
 use super::*;
 use crate::{MemoryFiles, Options};
 
