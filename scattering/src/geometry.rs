@@ -266,7 +266,7 @@ pub fn propagation(side: Side, incidence: &Incidence, direction: &Direction) -> 
     (k_i, k_s)
 }
 
-/// A scattered ray, or several: what of [`Direction`] formulas need.
+/// A scattered direction, or a batch of them: sines and cosines of [`Direction`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ScatteredRay<R> {
     pub(crate) sin: R,

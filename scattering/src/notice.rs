@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::Defect;
 
-/// Something that a user should know of a result; it is no error.
+/// A remark on a result; it is not an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Notice {
     /// The result differs from that of NIST's library by this defect.

@@ -6,7 +6,7 @@ use num_complex::Complex64;
 
 use super::real::Real;
 
-/// A complex number, or several.
+/// A complex number, or a batch of lanes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Complex<R> {
     pub(crate) re: R,

@@ -5,7 +5,7 @@ use std::{
     ops::{Add, Div, Mul, Neg, Sub},
 };
 
-/// One number, or several that go the same way.
+/// One number, or a batch of lanes with the same operations.
 pub trait Real:
     Copy
     + Add<Output = Self>

@@ -1,13 +1,13 @@
-//! The matrices of a batch: several directions at once, and what is left one by one.
+//! Matrices of a batch of directions in lanes; the remaining directions one by one.
 
 use crate::{
     Direction, Mueller,
     lanes::{LaneKernel, SimdLevel, WIDTH, dispatch},
 };
 
-/// A model under one beam, whose formula works on several directions.
+/// A model under one beam with a closed form for a batch of directions.
 pub(crate) trait BatchKernel {
-    /// Puts the matrices of several directions into `out`.
+    /// Writes the matrices of a batch of directions to `out`.
     fn batch<V: SimdLevel>(
         &self,
         vectors: V,

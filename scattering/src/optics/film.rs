@@ -13,7 +13,7 @@
 //!    t_p = \frac{n_0}{n_t}\frac{2Y_0}{X+Z} $$
 //!
 //! Where the wave fades, F is used times e^{iδ}, so that thick films do not overflow; the product
-//! of these factors is put back where it matters. A wave that travels without loss has real δ and
+//! of these factors enters transmission and fields. A wave that travels without loss has real δ and
 //! Y, and its F has two real and two imaginary elements.
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.6.

@@ -53,7 +53,7 @@ struct Smith {
 const UNSHADOWED: f64 = 6.0;
 
 impl Smith {
-    /// g of a ray, or of several.
+    /// g of a ray, or of a batch of rays.
     ///
     /// With x = μ/√2w and erfc x = e^{−x²} f/(1 + 2x), numerator and denominator are taken times
     /// √π x (1 + 2x): one division instead of three.
@@ -69,7 +69,7 @@ impl Smith {
     }
 }
 
-/// The fractions of several directions at a time.
+/// Unshadowed fractions of a batch of directions.
 struct UnshadowedFractions<'a> {
     smith: &'a Smith,
     of_source: f64,

@@ -23,7 +23,7 @@ pub trait SlopeDistribution: Send + Sync {
 
     /// Puts S of each of the slopes `zeta` (ζ_x, ζ_y) into `out`, which has their number.
     ///
-    /// Overridden where a closed form works on several numbers at once; the bits do not change.
+    /// Overridden where a closed form evaluates a batch; the bits do not change.
     fn densities(&self, zeta: &[[[f64; WIDTH]; 2]], out: &mut [[f64; WIDTH]]) {
         for ([x, y], out) in zeta.iter().zip(out) {
             *out = std::array::from_fn(|k| self.density(x[k], y[k]));
@@ -36,7 +36,7 @@ pub trait SlopeDistribution: Send + Sync {
     }
 }
 
-/// A density with a closed form for one slope or several.
+/// A density with a closed form for one slope or a batch.
 pub(super) trait ClosedForm {
     fn at<R: Real>(&self, x: R, y: R) -> R;
 }

@@ -1,25 +1,25 @@
-//! Numbers that no formula can work with, refused before a class is built.
+//! Range checks of parameter values before a class is built.
 
 use num_complex::Complex64;
 
 use super::{ParameterError, ParameterNode, ParameterValue};
 use crate::optics::{RealFunction, RefractiveIndex};
 
-/// Numbers beyond this are mistakes in every unit that parameters have, and their powers overflow.
+/// Largest magnitude of a number in every unit of parameters; powers of larger numbers overflow.
 const LARGEST: f64 = 1e30;
-/// Indices of refraction beyond this belong to no material from X-rays to microwaves.
+/// Largest n and k; no material from X-rays to microwaves exceeds it.
 const LARGEST_INDEX: f64 = 1e6;
-/// Nor do indices below this.
+/// Smallest n or k other than 0.
 const LEAST_INDEX: f64 = 1e-6;
-/// From gamma rays to the longest radio waves, µm.
+/// Accepted wavelengths, µm: gamma rays to the longest radio waves.
 const WAVELENGTHS: std::ops::RangeInclusive<f64> = 1e-9..=1e12;
 
-/// Looks at every number in `node` and below it; `lambda` is the vacuum wavelength in µm.
+/// Checks every number in `node` and below it; `lambda` is the vacuum wavelength in µm.
 ///
 /// # Errors
 ///
-/// For the first number that is not finite or too large, and for an index of refraction that is
-/// nothing (0) or that has a negative part.
+/// For the first number that is not finite or too large, and for an index of refraction that is 0
+/// or has a negative part.
 pub(crate) fn check(node: &ParameterNode, lambda: f64) -> Result<(), ParameterError> {
     for (param, value) in node.class.parameters().zip(&node.values) {
         let wrong = |problem: String| ParameterError::new(param.name, problem);

@@ -1,4 +1,4 @@
-//! The complementary error function for one number or several at once.
+//! The complementary error function for one number or a batch.
 //!
 //! $$ \mathrm{erfc}\,x = \frac{e^{-x^2}}{1+2x}\,f(t), \qquad
 //!    f = (1+2x)\,e^{x^2}\,\mathrm{erfc}\,x, \qquad t = \frac{x-K}{x+K},\; K = 3.75 $$

@@ -25,7 +25,7 @@ use crate::{
 
 mod waves;
 
-/// Blocks of this size relative to the largest one are nothing, and so are those of higher orders.
+/// Size of a block, relative to the largest one, below which it and those of higher orders are 0.
 const NOTHING: f64 = 1e-30;
 
 impl TMatrix {

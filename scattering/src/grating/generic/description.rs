@@ -19,7 +19,7 @@ pub(crate) struct DescriptionContext {
     pub(crate) below: Complex64,
 }
 
-/// A description with its parameters and materials worked out.
+/// A parsed description with the values of its parameters and materials.
 pub(crate) struct GratingDescription {
     blocks: BTreeMap<String, Vec<String>>,
     scope: Constants,

@@ -208,7 +208,7 @@ impl SlopeQuadrature {
     /// True if the rows do not depend on the rotation of the sample.
     fn is_isotropic<const N: usize>(&self, rows: &FacetRows<'_, N>) -> bool {
         let s = self.deviations.0.min(self.deviations.1);
-        // Rows may vanish at the greater angle, where nothing gets out.
+        // Rows may vanish at the greater angle, where no light leaves.
         [(0.3, 0.5, 0.2), (0.9, -0.7, 1.1)].into_iter().all(|(theta, x, y)| {
             let turned = |rotation: f64| {
                 let at = Incidence::new(theta, rotation);

@@ -25,7 +25,7 @@ pub(super) struct DiffuseMeans {
     pub(super) passed_down: f64,
     /// r.
     pub(super) below: f64,
-    /// ⟨l⟩ and ⟨c⟩: what gets out of a uniform radiance in each space.
+    /// ⟨l⟩ and ⟨c⟩: parts of a uniform radiance in each space that leave the coating.
     pub(super) escapes: (f64, f64),
 }
 

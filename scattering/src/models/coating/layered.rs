@@ -9,7 +9,7 @@
 //!
 //! S_j are the facets of a rough interface (a smooth one reflects into one direction, which is no
 //! BRDF), T_j what the interface lets pass. The model at the bottom is immersed in the last layer:
-//! every index over n, wavelength λ/n. Models for which that means nothing are refused.
+//! every index over n, wavelength λ/n. Models without a meaning inside a medium are refused.
 //!
 //! Light that goes back and forth between smooth interfaces is added up for s, p and their
 //! coherence (T_1 T_2/(1 − A R_1 R_2 A), and so on downwards). A diffuse body at the bottom

@@ -57,7 +57,7 @@ pub(crate) struct Facet {
     pub(super) common: CommonParameters,
     pub(super) slopes: Box<dyn SlopeDistribution>,
     pub(super) films: Films,
-    /// Defect B5: no turn where the facet is met along its normal.
+    /// Defect B5: no rotation of the bases at normal incidence on the facet.
     pub(super) unturned: bool,
 }
 

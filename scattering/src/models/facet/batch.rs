@@ -1,4 +1,4 @@
-//! Several bare facets at once: their matrices, or the sum of them.
+//! Batches of bare facets: their matrices, or the sum of them.
 //!
 //! The slopes of a part of the directions come first, then their densities, which every kind of
 //! slopes computes in its own way, then the matrices.
@@ -108,13 +108,13 @@ impl LaneKernel for SumKernel<'_> {
     }
 }
 
-/// Several bare facets met from above.
+/// A batch of bare facets, lit from above.
 struct FacetBatch<R> {
     /// |w|² J.
     jones: [Complex<R>; 4],
     /// Factor of its matrix M.
     weight: R,
-    /// True if one of them is met so close to its normal that it must be looked at alone.
+    /// True if light hits one of them so close to its normal that it must be evaluated alone.
     is_delicate: bool,
 }
 

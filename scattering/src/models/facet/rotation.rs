@@ -22,7 +22,7 @@ use crate::{
     optics::film::SpAmplitudes,
 };
 
-/// The facets that reflect a beam into one direction or several.
+/// The facets that reflect a beam into one direction or a batch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FacetOrientation<R> {
     /// |h|², h = k_o − k_i along their normals: 4 cos² ι.
@@ -111,13 +111,13 @@ impl<R: Real> FacetRotation<R> {
 }
 
 impl FacetRotation<f64> {
-    /// The turn of a facet that is met exactly along its normal: its s is that of the incident ray.
+    /// The rotation at exactly normal incidence on the facet: its s is that of the incident ray.
     #[inline]
     pub(crate) fn along_normal(direction: &Direction, z: f64) -> Self {
         Self { incoming: [1.0, 0.0], outgoing: [direction.cos_phi, -z * direction.sin_phi] }
     }
 
-    /// No turn at all.
+    /// The identity.
     pub(crate) fn none() -> Self {
         Self { incoming: [1.0, 0.0], outgoing: [1.0, 0.0] }
     }

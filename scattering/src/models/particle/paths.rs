@@ -1,4 +1,4 @@
-//! The paths that light takes by way of a particle and the face of a substrate.
+//! Paths of light between a particle and the face of a substrate.
 //!
 //! Light comes to the particle straight or after a reflection, and leaves it straight or by way
 //! of a reflection: four paths that interfere,
@@ -77,7 +77,7 @@ pub(super) enum InteractionPath {
     Straight,
     /// The light is reflected before it meets the particle.
     Before,
-    /// The light is reflected after it met the particle.
+    /// Light is reflected by the face after the particle scatters it.
     After,
     /// Both.
     Both,

@@ -25,7 +25,7 @@ use crate::{
 /// A film stack with the optical contrast of its interfaces.
 pub(super) struct StackContrast {
     stack: FirstOrder,
-    /// As the light leaves them: the last one is met first.
+    /// In the order in which light leaves them: the last one first.
     contrasts: Vec<InterfaceContrast>,
 }
 

@@ -286,7 +286,7 @@ mod tests {
         let turned = Mueller::diagonal([1.0, 1.0, 1.0, -1.0]);
         assert!((turned * sound * turned - compat).largest() < 1e-13 * sound.largest());
         assert!(sound[(3, 2)].abs() > 1e-3 * sound[(0, 0)]);
-        // Below the critical angle there is nothing to choose.
+        // Below the critical angle the root has one branch.
         let at = Geometry { theta_s: 0.7, ..at };
         let sound = glass(1, Mode::Sound).mueller(&at, Basis::Psps);
         assert_eq!(sound, glass(1, Mode::Compat).mueller(&at, Basis::Psps));

@@ -16,7 +16,7 @@ pub fn decaying_root(z: Complex64) -> Complex64 {
     root(z.re, z.im).into()
 }
 
-/// [`decaying_root`] of several numbers with one imaginary part.
+/// [`decaying_root`] of a batch of numbers with one imaginary part.
 #[inline(always)]
 pub(crate) fn root<R: Real>(re: R, im: f64) -> Complex<R> {
     if im == 0.0 {
