@@ -60,7 +60,7 @@ pub trait Brdf: Send + Sync {
 
     /// Cones with sharp rims into which light of one beam goes, such as the orders of a grating.
     ///
-    /// Who integrates over directions would else miss narrow ones; rims may be approximate.
+    /// Integrators start there, so that narrow lobes are not missed; rims may be approximate.
     fn lobe_supports(&self, _: &Incidence) -> Vec<LobeSupport> {
         Vec::new()
     }

@@ -206,7 +206,7 @@ mod tests {
             assert_eq!(difference < 1e-12, kept, "{mode:?}: {difference:e}");
             // Light at azimuth 0 meets no defect.
             let sound = jones(&*built(0.15, 0.1, Mode::Sound), a, b);
-            // The orders differ by what they leave out.
+            // The orders differ by their truncation errors.
             assert!(largest(&here, &sound) < 1e-6 * sound.ss.norm());
         }
     }

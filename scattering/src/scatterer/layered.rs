@@ -98,7 +98,7 @@ fn unit((u, v): SlopeAndValue) -> SlopeAndValue {
 }
 
 fn outside((m, x): SphereShell, faces: &FaceDerivatives) -> Vec<(Complex64, Complex64)> {
-    /// An irregular function this large leaves nothing of a coefficient.
+    /// Size of an irregular function at which a coefficient vanishes.
     const NOTHING: f64 = 1e160;
     let (psi, chi) = riccati::real(faces.len() - 1, x);
     let coefficient = |n: usize, u: Complex64, v: Complex64| {

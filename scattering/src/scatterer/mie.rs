@@ -48,7 +48,7 @@ pub struct Mie {
 }
 
 impl Mie {
-    /// A homogeneous sphere of relative index `m` and radius `radius` µm; `node` knows whether
+    /// A homogeneous sphere of relative index `m` and radius `radius` µm; `node` says whether
     /// to start its recurrence as NIST's library does.
     pub fn homogeneous(
         node: &ParameterNode,

@@ -22,7 +22,7 @@ pub fn terms(x: f64) -> usize {
     (x + 4.0 * x.powf(0.3333) + 2.0) as usize
 }
 
-/// A number of terms of a sphere of size parameter `x` beyond which nothing is left.
+/// Number of terms of a sphere of size parameter `x` beyond which all terms vanish.
 ///
 /// ψ_n/ζ_n is below exp(−1.88·8^{3/2}) = 10⁻¹⁸ eight widths x^{1/3} of the turning point above it.
 pub fn converged_terms(x: f64) -> usize {
@@ -69,7 +69,7 @@ impl MieSeries {
         self.terms.len()
     }
 
-    /// True if there are none.
+    /// True if there are no coefficients.
     pub fn is_empty(&self) -> bool {
         self.terms.is_empty()
     }

@@ -2,7 +2,7 @@
 //!
 //! $$ S = T(\zeta), \qquad \zeta^2 = \zeta_x^2 + \zeta_y^2 $$
 //!
-//! Nothing is normalized: the table is used as it stands, with its end values held.
+//! The table is not normalized; beyond its range the end values are held.
 
 use super::SlopeDistribution;
 use crate::{

@@ -33,7 +33,7 @@ pub(super) struct EnergyCompensation {
 }
 
 impl EnergyCompensation {
-    /// Nothing if all interfaces are smooth, or films absorb some of what is missing.
+    /// `None` if all interfaces are smooth, or if films absorb part of the missing light.
     pub(super) fn new(coats: &[CoatLayer]) -> Option<Self> {
         let rough = coats.iter().any(|coat| coat.interface.is_rough());
         if !rough || coats.iter().any(|coat| coat.interface.absorbs()) {

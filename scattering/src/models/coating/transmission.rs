@@ -21,7 +21,7 @@ pub(super) struct TransmissionFactors {
 }
 
 impl TransmissionFactors {
-    /// Nothing happens.
+    /// Complete transmission.
     pub(super) const FREE: Self = Self { s: 1.0, p: 1.0, c: Complex64::ONE };
     /// No light passes.
     pub(super) const NONE: Self = Self { s: 0.0, p: 0.0, c: Complex64::ZERO };

@@ -256,7 +256,7 @@ mod tests {
         assert!(difference(f(&sound, 0.5), f(&compat, 0.5)) > 1e-7);
         // The sound series of the sphere has a few terms more.
         assert!(difference(f(&sound, 0.6), f(&compat, 0.6)) < 1e-8);
-        // Nothing jumps: 1e-9 rad from the specular direction changes as much.
+        // The result is continuous: 1e-9 rad from the specular direction changes as much.
         assert!(difference(f(&sound, 0.5), f(&sound, 0.5 + 1e-9)) < 1e-7);
     }
 
