@@ -76,14 +76,15 @@ pub(super) fn series(phase: &Value, top: usize) -> PhaseExpansion {
 pub(super) fn sphere(part: &Value) -> Box<dyn Scatterer> {
     let index = numbers(&part["relative_index"]);
     let value = |n, k| ParameterValue::Index(RefractiveIndex::constant(n, k));
-    let node = ParameterNode::with_defaults(spec::find_class("MieScatterer").unwrap(), Mode::Sound)
-        .with("lambda", ParameterValue::Number(2.0 * PI))
-        .and_then(|n| n.with("medium", value(1.0, 0.0)))
-        .and_then(|n| {
-            n.with("radius", ParameterValue::Number(number(&part["size_parameter_in_medium"])))
-        })
-        .and_then(|n| n.with("sphere", value(index[0], index[1])))
-        .unwrap();
+    let node =
+        ParameterNode::with_defaults(registry::find_class("MieScatterer").unwrap(), Mode::Sound)
+            .with("lambda", ParameterValue::Number(2.0 * PI))
+            .and_then(|n| n.with("medium", value(1.0, 0.0)))
+            .and_then(|n| {
+                n.with("radius", ParameterValue::Number(number(&part["size_parameter_in_medium"])))
+            })
+            .and_then(|n| n.with("sphere", value(index[0], index[1])))
+            .unwrap();
     spec::build(&node).unwrap()
 }
 
