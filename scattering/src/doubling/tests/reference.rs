@@ -14,8 +14,8 @@ use super::super::{
     stack::{LayerFace, SlabParticles, StackBottom, TransferLayer, TransferStack},
 };
 use crate::{
-    Mode, Mueller, ParameterNode, ParameterValue, optics::RefractiveIndex, scatterer::Scatterer,
-    spec,
+    Mode, Mueller, ParameterNode, ParameterValue, optics::RefractiveIndex, registry,
+    scatterer::Scatterer, spec,
 };
 
 pub(super) fn file() -> Value {
