@@ -14,12 +14,12 @@ mod films;
 mod formula;
 mod index;
 mod input;
-mod object;
 mod path;
 mod persistent;
 mod source;
 mod state;
 mod table;
+mod text;
 
 pub use error::SetError;
 pub use input::ParameterInput;
@@ -28,9 +28,9 @@ pub use path::ParameterPath;
 use input::ParameterContext;
 
 use mist_format::number;
-use object::ObjectState;
 use persistent::Persistent;
 use scattering::{Class, Mode, ParameterNode, spec::SharedNotices};
+use state::ObjectState;
 
 use crate::DataFiles;
 

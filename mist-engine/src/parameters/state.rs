@@ -1,4 +1,4 @@
-//! The state of one parameter, by its kind.
+//! The states of parameters by their kinds, and of the objects that hold them.
 
 use std::{
     hash::{Hash, Hasher},
@@ -6,12 +6,10 @@ use std::{
     sync::Arc,
 };
 
-use mist_format::{
-    number::{integer_prefix, number_prefix, reread, whole_number},
-    suggestion::did_you_mean,
-};
+use mist_format::{number::reread, suggestion::did_you_mean};
 use scattering::{
-    Defect, Family, Mode, Parameter, ParameterKind, ParameterValue, registry, spec::SharedNotices,
+    Class, Defect, Mode, Parameter, ParameterKind, ParameterNode, ParameterValue,
+    spec::SharedNotices,
 };
 
 use super::{
@@ -20,12 +18,138 @@ use super::{
     formula::FormulaState,
     index::IndexState,
     input::{ParameterContext, ParameterInput},
-    object::ObjectState,
     path::RelativePath,
     persistent::Persistent,
     table::TableState,
+    text::{integer, member, number},
 };
 use crate::quirk::Quirk;
+
+/// Parameters that every class of NIST's library takes and that change nothing here.
+const IGNORED: &[&str] = &["recalc", "quiet"];
+
+/// An object in the tree of parameters.
+#[derive(Clone, Debug)]
+pub(crate) struct ObjectState {
+    pub(crate) class: &'static Class,
+    /// One per parameter of the class, in its order.
+    slots: Vec<ParameterState>,
+}
+
+impl Hash for ObjectState {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.class.name.hash(state);
+        self.slots.hash(state);
+    }
+}
+
+impl PartialEq for ObjectState {
+    fn eq(&self, other: &Self) -> bool {
+        self.class.name == other.class.name && self.slots == other.slots
+    }
+}
+
+impl Eq for ObjectState {}
+
+impl ObjectState {
+    /// Every parameter at its default.
+    pub(crate) fn new(class: &'static Class) -> Self {
+        Self { class, slots: class.parameters().map(ParameterState::default_of).collect() }
+    }
+
+    /// Sets the parameter `path`, seen from this object; `before` is this object as it was last
+    /// evaluated.
+    pub(crate) fn set(
+        &mut self,
+        path: RelativePath<'_>,
+        input: ParameterInput<'_>,
+        context: &mut ParameterContext<'_>,
+        before: Option<&Self>,
+    ) -> Result<(), SetError> {
+        let (name, rest) = (path.name(), path.rest());
+        if rest.is_some_and(|rest| rest.text().is_empty()) {
+            return Err(SetError::name(format!("the sub-parameter of {name} is missing")));
+        }
+        if IGNORED.contains(&name) && rest.is_none() {
+            return Ok(());
+        }
+        let before = before.filter(|before| before.class.name == self.class.name);
+        if let Some(lambda) = before.and_then(Self::wavelength) {
+            context.evaluated_at = Some(lambda);
+        }
+        let (at, param) = path.find_in(self.class).ok_or_else(|| self.unknown(name))?;
+        let slot_before = before.map(|before| &before.slots[at]);
+        match rest {
+            Some(rest) => self.slots[at].set_below(param, rest, input, context, slot_before),
+            None => self.slots[at].set(param, input, context),
+        }
+    }
+
+    fn unknown(&self, name: &str) -> SetError {
+        let known: Vec<&str> = self.class.parameters().map(|param| param.name).collect();
+        let list = known.join(", ");
+        SetError::name(format!("{} has no parameter {name}", self.class.name))
+            .help(format!("it has {list}"))
+            .help_if(did_you_mean(name, known))
+    }
+
+    /// True if `path` names a parameter of this object or of one in it.
+    pub(crate) fn owns(&self, path: RelativePath<'_>) -> bool {
+        let Some((at, _)) = path.find_in(self.class) else { return false };
+        match (path.rest(), &self.slots[at]) {
+            (None, _) => true,
+            (Some(rest), ParameterState::Member(object)) => object.owns(rest),
+            (Some(_), _) => false,
+        }
+    }
+
+    /// The value of the parameter `lambda`, if there is one.
+    pub(crate) fn wavelength(&self) -> Option<f64> {
+        let (at, _) = self.class.parameter("lambda")?;
+        self.slots[at].as_number()
+    }
+
+    pub(crate) fn set_wavelength(&mut self, lambda: f64) {
+        for (slot, param) in self.slots.iter_mut().zip(self.class.parameters()) {
+            match slot {
+                ParameterState::Member(object) => object.edit().set_wavelength(lambda),
+                ParameterState::Number(value) if param.name == "lambda" => {
+                    *value = lambda;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// True if an index in here remembers a value for its last wavelength.
+    pub(crate) fn remembers(&self) -> bool {
+        self.slots.iter().any(|slot| match slot {
+            ParameterState::Member(object) => object.remembers(),
+            ParameterState::Index(index) => index.remembers(),
+            _ => false,
+        })
+    }
+
+    pub(crate) fn forget_other_wavelengths(&mut self, around: Option<f64>) {
+        let lambda = self.wavelength().or(around);
+        for slot in &mut self.slots {
+            match slot {
+                ParameterState::Member(object) if object.remembers() => {
+                    object.edit().forget_other_wavelengths(lambda);
+                }
+                ParameterState::Index(index) if index.holds_other_than(lambda) => {
+                    index.edit().forget()
+                }
+                _ => {}
+            }
+        }
+    }
+
+    pub(crate) fn node(&self, mode: Mode, met: &SharedNotices) -> ParameterNode {
+        let values = self.slots.iter().map(|slot| slot.value(mode, met)).collect();
+        ParameterNode { class: self.class, values, mode, notices: met.clone() }
+    }
+}
 
 /// The state of a parameter.
 #[derive(Clone, Debug)]
@@ -250,53 +374,4 @@ impl ParameterState {
             Self::Member(object) => ParameterValue::Member(Arc::new(object.node(mode, met))),
         }
     }
-}
-
-/// A number: the whole text, or under compat its longest numeric beginning (0 without one).
-fn number(text: &str, mode: Mode) -> Result<f64, SetError> {
-    if let Some(x) = whole_number(text) {
-        return Ok(x);
-    }
-    let prefix = number_prefix(text.as_bytes());
-    if Quirk::NumericPrefix.applies_in(mode) {
-        return Ok(prefix.value.unwrap_or(0.0));
-    }
-    let error = SetError::value(format!("{text:?} is not a number"));
-    Err(match prefix.value {
-        Some(x) => error.help(format!(
-            "write {x}, or use `#` in place of `$` for an expression; NIST's program reads {x}"
-        )),
-        None => error.help("NIST's program reads 0; use `#` in place of `$` for an expression"),
-    })
-}
-
-fn integer(text: &str, mode: Mode) -> Result<i32, SetError> {
-    let prefix = integer_prefix(text);
-    let value = prefix.value.and_then(|value| i32::try_from(value).ok());
-    if Quirk::NumericPrefix.applies_in(mode) {
-        return Ok(value.unwrap_or(0));
-    }
-    let whole = prefix.taken == text.trim_end().len();
-    value.filter(|_| whole).ok_or_else(|| {
-        SetError::value(format!("{text:?} is not an integer"))
-            .help(format!("NIST's program reads {}", value.unwrap_or(0)))
-    })
-}
-
-/// The class called `name`, at or below `base`.
-fn member(name: &str, family: &Family, base: &str) -> Result<&'static scattering::Class, SetError> {
-    let found = family.class(name);
-    let found = found.filter(|class| family.is_below(class.name, base));
-    found.ok_or_else(|| {
-        let abstract_class = name == base || registry::is_abstract(name);
-        let problem = if abstract_class {
-            format!("{name} is a family of classes, not one of them")
-        } else {
-            format!("there is no {base} called {name:?}")
-        };
-        let classes = family.classes().into_iter().map(|class| class.name);
-        let choices: Vec<&str> = classes.filter(|choice| family.is_below(choice, base)).collect();
-        let all = format!("choose one of {}", choices.join(", "));
-        SetError::value(problem).help(all).help_if(did_you_mean(name, choices))
-    })
 }
