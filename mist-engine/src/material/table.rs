@@ -4,36 +4,32 @@
 //! evaluated in batches; the bits do not depend on the number of threads. Nodes at or below the
 //! horizon are filled from 89.9° and flagged.
 
-use std::{
-    collections::HashMap,
-    f64::consts::{FRAC_PI_2, PI},
-};
+mod patches;
+
+use std::f64::consts::PI;
 
 use rayon::prelude::*;
 use scattering::{Incidence, Model, Mueller, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Quantity};
 
-use super::{
-    MaterialError, PreparedMaterial,
-    patch::{PolarCell, Probes, azimuth_cells, polar_cells},
-};
+use patches::{IncidenceGroup, PatchTarget, check, of_grid, of_list, symmetry};
+
+use super::{MaterialError, PreparedMaterial, patch::Probes};
 use crate::{
     Control,
     colour::{
-        self, Albedo, ColourRow, ColourTable, RowOrder, Symmetry, TableAxis,
+        self, Albedo, ColourRow, ColourTable, RowOrder, TableAxis,
         fold::{coloured, interpolation},
     },
     integrate::integrate,
     region::Region,
-    request::{GridPatch, GridRequest, Patch, PatchRow, TableDirections, TableRequest},
+    request::{GridPatch, Patch, TableDirections, TableRequest},
     sampling::{
         self,
         adaptive::{self, Accuracy},
     },
 };
 
-/// In the place of angles of 90° and more.
-const FILLED_FROM: f64 = 89.9;
 /// Relative error of a hemispherical reflectance.
 const ALBEDO: Accuracy = Accuracy { tolerance: 1e-6, budget: 400_000 };
 
@@ -217,22 +213,6 @@ impl Colours {
     }
 }
 
-/// A row of the table, and where its patch is.
-struct PatchTarget {
-    row: usize,
-    /// thetai, thetas, phis as they were asked for, degrees.
-    angles: [f64; 3],
-    flags: u8,
-}
-
-/// Rows with one angle of incidence.
-struct IncidenceGroup {
-    thetai: f64,
-    rows: Vec<PatchTarget>,
-    /// Which probes; the groups of a grid share theirs.
-    probes: usize,
-}
-
 /// All that is to be evaluated.
 struct TableComputation<'a> {
     request: &'a TableRequest,
@@ -242,20 +222,12 @@ struct TableComputation<'a> {
     rows: usize,
 }
 
-fn above(theta: f64) -> f64 {
-    if theta >= 90.0 { FILLED_FROM } else { theta }
-}
-
-fn flags(thetai: f64, thetas: f64) -> u8 {
-    if thetai >= 90.0 || thetas >= 90.0 { ColourRow::FILLED } else { 0 }
-}
-
 impl<'a> TableComputation<'a> {
     fn new(material: &PreparedMaterial, request: &'a TableRequest) -> Result<Self, MaterialError> {
         check(request)?;
         let (probes, groups, rows) = match &request.directions {
-            TableDirections::Grid(grid) => grid_work(grid, request)?,
-            TableDirections::List(list) => list_work(list, request)?,
+            TableDirections::Grid(grid) => of_grid(grid, request)?,
+            TableDirections::List(list) => of_list(list, request)?,
         };
         let each = |group: &IncidenceGroup| probes[group.probes].directions() as f64;
         let cost = groups.iter().map(each).sum::<f64>() * request.wavelengths.len() as f64;
@@ -334,147 +306,6 @@ impl IncidenceGroup {
         let omega = work.probes[self.probes].omegas[k];
         coloured(plan, Vec::new(), [thetai, thetas, phis, omega], spectra, flags)
     }
-}
-
-fn check(request: &TableRequest) -> Result<(), MaterialError> {
-    if !matches!(request.settings.quantity, Quantity::Brdf | Quantity::Factor) {
-        let problem = "a table of a material is one of brdf or factor";
-        return Err(MaterialError::request("quantity", problem));
-    }
-    let bad = request.wavelengths.iter().find(|nm| !(nm.is_finite() && **nm > 0.0));
-    if let Some(nm) = bad {
-        return Err(MaterialError::request("wavelengths", format!("{nm} nm is no wavelength")));
-    }
-    let TableDirections::Grid(grid) = &request.directions else { return Ok(()) };
-    for (name, nodes, low, high) in [
-        ("thetai", &grid.thetai, 0.0, 180.0),
-        ("thetas", &grid.thetas, 0.0, 180.0),
-        ("phis", &grid.phis, -180.0, 180.0),
-    ] {
-        let rising = nodes.windows(2).all(|pair| pair[0] < pair[1]);
-        let inside = nodes.iter().all(|x| (low..=high).contains(x));
-        if nodes.is_empty() || !rising || !inside {
-            let problem = format!("expected rising angles from {low} to {high} degrees");
-            return Err(MaterialError::request(name, problem));
-        }
-    }
-    if grid.patch == GridPatch::Ring && grid.phis.len() > 1 {
-        let problem = "a ring is an average over the azimuth: expected one node";
-        return Err(MaterialError::request("phis", problem));
-    }
-    let nodes = request.directions.rows();
-    if nodes > request.limits.steps as f64 {
-        return Err(MaterialError::Limit(format!("the grid has {nodes:e} nodes")));
-    }
-    Ok(())
-}
-
-fn symmetry(phis: &[f64]) -> Symmetry {
-    if phis.iter().all(|phi| *phi >= 0.0) { Symmetry::Mirror } else { Symmetry::None }
-}
-
-type Parts = (Vec<Probes>, Vec<IncidenceGroup>, usize);
-
-fn grid_work(grid: &GridRequest, request: &TableRequest) -> Result<Parts, MaterialError> {
-    let mut probes = Probes::default();
-    let mut nodes = Vec::new();
-    let mirror = symmetry(&grid.phis) == Symmetry::Mirror;
-    let rad = |(a, b): (f64, f64)| (a.to_radians(), b.to_radians());
-    let azimuths = azimuth_cells(&grid.phis, mirror);
-    for (thetas, theta) in grid.thetas.iter().zip(polar_cells(&grid.thetas)) {
-        for (phis, phi) in grid.phis.iter().zip(&azimuths) {
-            let center = rad((above(*thetas), *phis));
-            let (empty, theta) = (theta.0 >= theta.1, rad(theta));
-            let error = |error| MaterialError::Patch { number: nodes.len() + 1, error };
-            let patch = match grid.patch {
-                GridPatch::Circle(alpha) => Patch::Circle(alpha),
-                _ => Patch::Point,
-            };
-            match grid.patch {
-                GridPatch::Cell if !empty => {
-                    probes.add_cell(&PolarCell { theta, phi: rad(*phi), center });
-                }
-                GridPatch::Ring if !empty => probes.add_ring(theta),
-                _ => admit(&probes, &patch, request)
-                    .and_then(|()| probes.add(center, &patch, &request.sampling).map_err(error))?,
-            }
-            within(&probes, request)?;
-            nodes.push((*thetas, *phis));
-        }
-    }
-    let group = |(number, thetai): (usize, &f64)| IncidenceGroup {
-        thetai: above(*thetai),
-        rows: (nodes.iter().enumerate())
-            .map(|(k, &(thetas, phis))| PatchTarget {
-                row: number * nodes.len() + k,
-                angles: [*thetai, thetas, phis],
-                flags: flags(*thetai, thetas),
-            })
-            .collect(),
-        probes: 0,
-    };
-    let groups: Vec<IncidenceGroup> = grid.thetai.iter().enumerate().map(group).collect();
-    let rows = grid.thetai.len() * probes.len();
-    Ok((vec![probes], groups, rows))
-}
-
-fn list_work(list: &[PatchRow], request: &TableRequest) -> Result<Parts, MaterialError> {
-    let (mut probes, mut groups): (Vec<Probes>, Vec<IncidenceGroup>) = Default::default();
-    let mut known: HashMap<u64, usize> = HashMap::new();
-    for (row, place) in list.iter().enumerate() {
-        let PatchRow { thetai, thetas, phis, patch } = place;
-        if !(0.0..=180.0).contains(thetai) || !thetas.is_finite() || !phis.is_finite() {
-            let part = format!("patch {}", row + 1);
-            return Err(MaterialError::request(part, "expected finite angles in degrees"));
-        }
-        // Without the sign of a zero.
-        let bits = (above(*thetai) + 0.0).to_bits();
-        let at = *known.entry(bits).or_insert_with(|| {
-            probes.push(Probes::default());
-            groups.push(IncidenceGroup {
-                thetai: above(*thetai),
-                rows: Vec::new(),
-                probes: groups.len(),
-            });
-            groups.len() - 1
-        });
-        admit(&probes[at], patch, request)?;
-        let center = (above(*thetas).to_radians(), phis.to_radians());
-        probes[at]
-            .add(center, patch, &request.sampling)
-            .map_err(|error| MaterialError::Patch { number: row + 1, error })?;
-        within(&probes[at], request)?;
-        let (angles, flags) = ([*thetai, *thetas, *phis], flags(*thetai, *thetas));
-        groups[at].rows.push(PatchTarget { row, angles, flags });
-    }
-    Ok((probes, groups, list.len()))
-}
-
-/// Refuses a patch whose directions would not fit beside those that are there.
-fn admit(probes: &Probes, patch: &Patch, request: &TableRequest) -> Result<(), MaterialError> {
-    let (Patch::Circle(alpha) | Patch::Ring(_, alpha)) = patch else { return Ok(()) };
-    let region = Region::Circle {
-        center: (0.0, 0.0),
-        alpha: alpha.to_radians().clamp(-FRAC_PI_2, FRAC_PI_2),
-    };
-    let more = sampling::Layout::estimate(&region, &request.sampling);
-    if probes.directions() as f64 + more > request.limits.directions {
-        return Err(too_many_directions(request));
-    }
-    Ok(())
-}
-
-/// Refuses to go on with more directions than the limit.
-fn within(probes: &Probes, request: &TableRequest) -> Result<(), MaterialError> {
-    if probes.directions() as f64 > request.limits.directions {
-        return Err(too_many_directions(request));
-    }
-    Ok(())
-}
-
-fn too_many_directions(request: &TableRequest) -> MaterialError {
-    let limit = request.limits.directions;
-    MaterialError::Limit(format!("the patches have more than {limit:e} directions"))
 }
 
 fn first_not_finite(row: &ColourRow, wavelengths: &[f64]) -> Option<f64> {

@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     Limits,
     material::Material,
-    request::{ColourQuery, Patch, PatchRow},
+    request::{ColourQuery, GridRequest, Patch, PatchRow},
     sampling::PlaneSampling,
 };
 
