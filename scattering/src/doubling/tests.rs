@@ -363,7 +363,7 @@ fn a_rough_face_over_white_loses_nothing() {
 #[test]
 fn all_bounces_at_a_rough_face_return_as_much_as_in_the_file() {
     let case = case("rough");
-    let mut resolution = resolution(12, 9, 22);
+    let mut resolution = resolution(16, 12, 22);
     resolution.modes = 0;
     let stack = stack(&case["inputs"], 23);
     let transfer = TransferProblem::new(&stack, &resolution, &numbers(&case["mu_i"]));
