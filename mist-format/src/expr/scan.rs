@@ -8,6 +8,9 @@
 mod frame;
 mod interner;
 mod letters;
+mod rules;
+
+pub(super) use rules::Rules;
 
 use super::compiled::CompiledExpr;
 use super::error::{ExprError, ExprErrorKind};
@@ -15,33 +18,12 @@ use super::functions::Function;
 use super::limits::MAX_TOKENS;
 use super::op::{Action, Op, Operation};
 use super::scalar;
-use crate::dialect::{Dialect, TextDeviation};
+use crate::dialect::TextDeviation;
 use crate::number::{is_blank, number_prefix};
 use crate::span::Span;
 use frame::{FrameKind, OpenFrame};
 use interner::Interner;
 use letters::{begins_name, begins_operand, continues_name};
-
-/// The differences between the evaluators.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rules {
-    dialect: Dialect,
-    library: bool,
-}
-
-impl Rules {
-    pub(super) fn program(dialect: Dialect) -> Self {
-        Self { dialect, library: false }
-    }
-
-    pub(super) fn library() -> Self {
-        Self { dialect: Dialect::Sound, library: true }
-    }
-
-    fn refuses(self, deviation: TextDeviation) -> bool {
-        deviation.refused_in(self.dialect)
-    }
-}
 
 pub(super) fn compile(text: &str, rules: Rules) -> Result<CompiledExpr, ExprError> {
     let mut scan = Scan::new(text, rules);
