@@ -20,10 +20,10 @@ pub(crate) use variables::initial_values;
 use crate::{
     DataFiles, Files, Job, Options,
     colour::section,
+    deviation::dialect,
     graph::DependencyGraph,
     parameters::ModelParameters,
     plan::{ColourSection, ErrorColumns, LoopPlan, OutputPlan, Plan, VariableEntry},
-    quirk::dialect,
 };
 use binder::Binder;
 use loops::LoopScope;

@@ -22,8 +22,8 @@ use scattering::Mode;
 pub(crate) use independence::Independence;
 
 use crate::{
+    deviation::EngineDeviation,
     plan::{ExpressionId, LoopPlan, Plan},
-    quirk::Quirk,
 };
 
 /// Position of a node among all nodes of a graph.
@@ -204,7 +204,7 @@ fn inside(plan: &Plan, mode: Mode) -> Vec<Vec<usize>> {
         });
         below.map(|(other, _)| other).collect()
     };
-    if Quirk::NoResend.applies_in(mode) {
+    if EngineDeviation::NoResend.applies_in(mode) {
         return vec![Vec::new(); plan.entries.len()];
     }
     (0..plan.entries.len()).map(inside).collect()

@@ -47,6 +47,7 @@ mod values;
 
 pub mod colour;
 pub mod compile;
+pub mod deviation;
 pub mod fit;
 pub mod function;
 pub mod integrate;
@@ -54,7 +55,6 @@ pub mod job;
 pub mod material;
 pub mod output;
 pub mod parameters;
-pub mod quirk;
 pub mod region;
 pub mod replay;
 pub mod request;

@@ -15,8 +15,8 @@ use std::sync::Arc;
 
 use crate::{
     DataFiles, Failure, FileError, Files, Job, MemoryFiles,
+    deviation::dialect,
     parameters::{ModelParameters, ParameterInput, ParameterPath, SetError},
-    quirk::dialect,
     region::RegionError,
     replay::Replay,
     request::RequestError,

@@ -21,10 +21,10 @@ use scattering::Mode;
 
 use crate::{
     Job,
+    deviation::dialect,
     fault::Fault,
     parameters::ModelParameters,
     plan::VariableEntry,
-    quirk::dialect,
     slots::SlotNames,
     step::{Listing, ListingLine, Step, StepIntegral},
     sweep::{EntryContent, LoopContext, Sweep},

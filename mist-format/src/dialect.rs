@@ -35,9 +35,30 @@ pub enum SoundReading {
     Plain,
 }
 
-/// A deviation of NIST's reading from the written text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TextDeviation {
+/// Declares the deviations; the documentation of an entry is its row in the manual.
+macro_rules! text_deviations {
+    ($($(#[doc = $doc:literal])+ $name:ident,)*) => {
+        /// A deviation of NIST's reading from the written text.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum TextDeviation {
+            $($(#[doc = $doc])+ $name,)*
+        }
+
+        impl TextDeviation {
+            /// All deviations, in the order of the manual.
+            pub const ALL: &'static [Self] = &[$(Self::$name),*];
+
+            /// Reading of NIST's program, as the manual states it.
+            pub fn deviation(self) -> &'static str {
+                match self {
+                    $(Self::$name => concat!($($doc),+).trim_ascii(),)*
+                }
+            }
+        }
+    };
+}
+
+text_deviations! {
     /// `a junk = 5` sets a: everything between a name and the next `=` is ignored, also a name
     /// on a line of its own.
     JunkBeforeEquals,
@@ -45,7 +66,8 @@ pub enum TextDeviation {
     EqualsBeforeName,
     /// `a == 5` gives a the text `=`.
     EqualsBeginsValue,
-    /// `$p =` without a value takes the next word, which may be the next name or END.
+    /// `$p =` without a value takes the next word, which may be the next name or END;
+    /// `""` is an empty value.
     EmptyValue,
     /// A semicolon inside quotes starts a comment; the string goes on in the next line.
     CommentInQuotes,
@@ -81,29 +103,6 @@ pub enum TextDeviation {
 }
 
 impl TextDeviation {
-    /// All deviations, in the order of this file.
-    pub const ALL: &'static [Self] = &[
-        Self::JunkBeforeEquals,
-        Self::EqualsBeforeName,
-        Self::EqualsBeginsValue,
-        Self::EmptyValue,
-        Self::CommentInQuotes,
-        Self::NumberPrefix,
-        Self::OperatorLostToBlanks,
-        Self::AdjacentOperands,
-        Self::SignLost,
-        Self::SignBindsToNumber,
-        Self::NumberJunk,
-        Self::VectorArithmetic,
-        Self::NestedLists,
-        Self::LeadingMinus,
-        Self::PowerFromLeft,
-        Self::AndOrOneRank,
-        Self::DroppedLastLine,
-        Self::IndexPrefix,
-        Self::NegativeThickness,
-    ];
-
     /// The reading of the sound dialect.
     pub fn sound_reading(self) -> SoundReading {
         match self {

@@ -11,8 +11,8 @@ use mist_format::{
 
 use crate::{
     Job,
+    deviation::dialect,
     plan::{ColourSection, LoopPlan},
-    quirk::dialect,
 };
 
 /// Names that the language itself reads at every step.

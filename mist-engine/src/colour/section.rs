@@ -16,9 +16,9 @@ use spectra::{
 
 use crate::{
     DataFiles,
+    deviation::dialect,
     fault::placed,
     plan::{ColourSection, LoopPlan, LoopRole, OutputPlan, PlacedExpression, VariableEntry},
-    quirk::dialect,
     slots::SlotNames,
 };
 

@@ -5,9 +5,9 @@ use scattering::Mode;
 
 use crate::{
     DataFiles,
+    deviation::dialect,
     fault::{Fault, placed},
     plan::ExpressionId,
-    quirk::dialect,
     slots::SlotNames,
 };
 

@@ -13,9 +13,9 @@ use mist_format::{
 
 use super::binder::Binder;
 use crate::{
+    deviation::{EngineDeviation, dialect},
     fault::fault,
     plan::{ForPlan, ListColumn, ListPlan, LoopPlan, VariableEntry},
-    quirk::{Quirk, dialect},
 };
 
 /// The sections that a loop refers to.
@@ -135,7 +135,7 @@ pub(super) fn check_incident_loops(
     loops: &[LoopPlan],
     binder: &mut Binder<'_>,
 ) {
-    if Quirk::FixedIncidentPolarization.applies_in(binder.mode) {
+    if EngineDeviation::FixedIncidentPolarization.applies_in(binder.mode) {
         return;
     }
     let is_incident = |at: usize| {

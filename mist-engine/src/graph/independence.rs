@@ -10,9 +10,9 @@ use mist_format::{expr::Expr, number::whole_number};
 use scattering::Mode;
 
 use crate::{
+    deviation::dialect,
     parameters::{ModelParameters, ParameterPath},
     plan::{ListPlan, LoopPlan, Plan},
-    quirk::dialect,
 };
 
 /// Checks that remain for a job whose expressions pass on no values.

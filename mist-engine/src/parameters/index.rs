@@ -17,7 +17,7 @@ use super::{
     source::TableSource,
     table::TableState,
 };
-use crate::quirk::Quirk;
+use crate::deviation::EngineDeviation;
 
 /// An index of refraction: one table for n, one for k.
 #[derive(Clone, Debug)]
@@ -134,7 +134,7 @@ impl IndexState {
     /// Keeps the value of the last evaluation, as NIST's library does.
     fn hold(&mut self, context: &ParameterContext<'_>) {
         let Some(lambda) = context.evaluated_at else { return };
-        if Quirk::StaleInterpolation.applies_in(context.mode) {
+        if EngineDeviation::StaleInterpolation.applies_in(context.mode) {
             let value = self.value().at(lambda);
             self.held = Some(Held { lambda, n: value.re, k: value.im });
         }

@@ -23,7 +23,7 @@ use super::{
     table::TableState,
     text::{integer, member, number},
 };
-use crate::quirk::Quirk;
+use crate::deviation::EngineDeviation;
 
 /// Parameters that every class of NIST's library takes and that change nothing here.
 const IGNORED: &[&str] = &["recalc", "quiet"];
@@ -318,7 +318,7 @@ impl ParameterState {
     /// objects.
     fn ignores_default(&self, context: &ParameterContext<'_>) -> bool {
         let is_number = matches!(self, Self::Number(_) | Self::Integer(_));
-        is_number && context.is_nested && Quirk::NestedDefault.applies_in(context.mode)
+        is_number && context.is_nested && EngineDeviation::NestedDefault.applies_in(context.mode)
     }
 
     /// Sets a parameter below this one; `before` is this one as it was last evaluated.

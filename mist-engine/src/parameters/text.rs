@@ -7,7 +7,7 @@ use mist_format::{
 use scattering::{Family, Mode, registry};
 
 use super::error::SetError;
-use crate::quirk::Quirk;
+use crate::deviation::EngineDeviation;
 
 /// A number: the whole text, or under compat its longest numeric beginning (0 without one).
 pub(super) fn number(text: &str, mode: Mode) -> Result<f64, SetError> {
@@ -15,7 +15,7 @@ pub(super) fn number(text: &str, mode: Mode) -> Result<f64, SetError> {
         return Ok(x);
     }
     let prefix = number_prefix(text.as_bytes());
-    if Quirk::NumericPrefix.applies_in(mode) {
+    if EngineDeviation::NumericPrefix.applies_in(mode) {
         return Ok(prefix.value.unwrap_or(0.0));
     }
     let error = SetError::value(format!("{text:?} is not a number"));
@@ -30,7 +30,7 @@ pub(super) fn number(text: &str, mode: Mode) -> Result<f64, SetError> {
 pub(super) fn integer(text: &str, mode: Mode) -> Result<i32, SetError> {
     let prefix = integer_prefix(text);
     let value = prefix.value.and_then(|value| i32::try_from(value).ok());
-    if Quirk::NumericPrefix.applies_in(mode) {
+    if EngineDeviation::NumericPrefix.applies_in(mode) {
         return Ok(value.unwrap_or(0));
     }
     let whole = prefix.taken == text.trim_end().len();

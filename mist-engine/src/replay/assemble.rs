@@ -10,9 +10,9 @@ use super::{
     aperture::{ApertureBuilder, stokes},
 };
 use crate::{
+    deviation::EngineDeviation,
     fault::Fault,
     plan::RequiredVariables,
-    quirk::Quirk,
     region::RegionError,
     sampling::{
         IntegrationMode, Outlines, PlaneSampling, SamplingRule, adaptive::Accuracy, truncated,
@@ -157,7 +157,7 @@ impl<'j> Replay<'j> {
             Err(error) => return Ok(Err(error)),
         };
         let sides = self.required(required.polygonsides)? as i32;
-        let outlines = if Quirk::PolygonApertures.applies_in(options.mode) {
+        let outlines = if EngineDeviation::PolygonApertures.applies_in(options.mode) {
             Outlines::Polygons { sides }
         } else {
             Outlines::Exact

@@ -7,7 +7,7 @@ use mist_format::{Diagnostic, number};
 use scattering::Mode;
 
 use super::content::{EntryContent, LoopContext, LoopWrite};
-use crate::{fault::Fault, plan::ForPlan, quirk::Quirk, step::LoopCell};
+use crate::{deviation::EngineDeviation, fault::Fault, plan::ForPlan, step::LoopCell};
 
 /// The position of a FOR loop.
 pub(crate) struct ForState {
@@ -69,7 +69,7 @@ impl ForState {
         let from = context.values.number(plan.from, &plan.statement.from)?;
         let to = context.values.number(plan.to, &plan.statement.to)?;
         self.fraction = (self.value - from) / (to - from);
-        let inside = if Quirk::LostNegativeEnd.applies_in(context.mode) {
+        let inside = if EngineDeviation::LostNegativeEnd.applies_in(context.mode) {
             // The factors are NIST's; a negative end moves the wrong way.
             if to > from {
                 self.value <= to * 1.00000000001

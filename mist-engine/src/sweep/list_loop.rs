@@ -14,7 +14,7 @@ use mist_format::{
 use scattering::Mode;
 
 use super::content::{EntryContent, LoopContext, LoopWrite};
-use crate::{fault::Fault, plan::ListPlan, quirk::dialect, step::LoopCell};
+use crate::{deviation::dialect, fault::Fault, plan::ListPlan, step::LoopCell};
 
 /// The position of a LIST loop.
 pub(crate) struct ListState {
