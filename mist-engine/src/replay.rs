@@ -64,7 +64,7 @@ pub struct Replay<'j> {
     output_values: Arc<[Option<Value>]>,
     index: u64,
     ended: bool,
-    /// Whether the columns of the loops are needed.
+    /// True if the columns of the loops are needed.
     shows: bool,
 }
 
@@ -99,7 +99,7 @@ impl<'j> Replay<'j> {
         self
     }
 
-    /// Whether the last step was made.
+    /// True if the last step was made.
     pub(crate) fn has_ended(&self) -> bool {
         self.ended
     }

@@ -52,7 +52,7 @@ fn help(job: &Job, name: &str) -> String {
         .unwrap_or_else(|| "leave it out, or write its name where it is meant".into())
 }
 
-/// What is read somewhere.
+/// Names that some expression reads.
 struct Read {
     slots: BTreeSet<u32>,
     /// Entries that loops write: the results show them.

@@ -22,7 +22,7 @@ use crate::{
     slots::SlotNames,
 };
 
-/// What the section is compiled with.
+/// Context in which the section is compiled.
 pub(crate) struct ColourContext<'a> {
     pub(crate) names: &'a mut SlotNames,
     pub(crate) mode: Mode,
@@ -239,7 +239,7 @@ impl SectionCompiler<'_> {
         read.map_err(|error| self.fault("color/illuminant", place, &error)).ok()
     }
 
-    /// What every loop does to the table, told by what depends on it.
+    /// Role of every loop in the table, determined by its dependents.
     fn roles(
         &self,
         wavelength: &PlacedExpression,

@@ -109,7 +109,7 @@ fn list_plan(
     Some(ListPlan { statement: statement.clone(), file, columns, fed_back })
 }
 
-/// Whether a cell of a LIST file names an integral or an output.
+/// True if a cell of a LIST file names an integral or an output.
 fn reads_results(
     file: &ListTable,
     columns: &[ListColumn],

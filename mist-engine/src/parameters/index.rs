@@ -24,9 +24,9 @@ use crate::deviation::EngineDeviation;
 pub(crate) struct IndexState {
     n: TableState,
     k: TableState,
-    /// What NIST's library still remembers for its last wavelength.
+    /// Value that NIST's library remembers for its last wavelength.
     held: Option<Held>,
-    /// Whether NIST's library reads another index or file in the text.
+    /// True if NIST's library reads another index or file in the text.
     misread: bool,
 }
 
@@ -144,7 +144,7 @@ impl IndexState {
         self.held.is_some()
     }
 
-    /// Whether a value is kept for another wavelength than `lambda`.
+    /// True if a value is kept for another wavelength than `lambda`.
     pub(crate) fn holds_other_than(&self, lambda: Option<f64>) -> bool {
         self.held.is_some_and(|held| Some(held.lambda) != lambda)
     }
@@ -154,7 +154,7 @@ impl IndexState {
         self.held = None;
     }
 
-    /// Whether NIST's library reads another index or file in the text.
+    /// True if NIST's library reads another index or file in the text.
     pub(crate) fn is_misread(&self) -> bool {
         self.misread
     }
@@ -171,7 +171,7 @@ impl IndexState {
     }
 }
 
-/// Whether NIST's library reads another number or file name than is written.
+/// True if NIST's library reads another number or file name than is written.
 fn is_misread(text: &str) -> bool {
     let read = |dialect| IndexText::parse(text, dialect).ok();
     match (read(Dialect::Sound), read(Dialect::Compat)) {

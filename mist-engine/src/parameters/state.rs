@@ -314,7 +314,7 @@ impl ParameterState {
         Ok(())
     }
 
-    /// Whether NIST's library reads `default` as a number, that is as 0: numbers of nested
+    /// True if NIST's library reads `default` as a number, that is as 0: numbers of nested
     /// objects.
     fn ignores_default(&self, context: &ParameterContext<'_>) -> bool {
         let is_number = matches!(self, Self::Number(_) | Self::Integer(_));

@@ -188,7 +188,7 @@ fn real(n: usize, x: Extended) -> [Vec<Extended>; 2] {
 
 /// The angular functions of one l at one node.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct NodeHarmonics {
     pub(super) tau: Extended,
     pub(super) mu: Extended,
     /// r'/r times P̃.
@@ -204,7 +204,7 @@ impl Angular {
     }
 
     /// Rows by l from max(1, m), columns by node; the recurrences are those of [`Harmonics`].
-    pub(super) fn order(&self, m: usize, l_max: usize) -> Vec<Vec<Place>> {
+    pub(super) fn order(&self, m: usize, l_max: usize) -> Vec<Vec<NodeHarmonics>> {
         let l_min = Harmonics::l_min(m);
         let mut rows = vec![Vec::with_capacity(self.0.len()); l_max + 1 - l_min];
         let number = |x: f64| Extended::from(x);
@@ -250,7 +250,7 @@ impl Angular {
                     let tau = point.cos * q * number(n) - before * c;
                     (tau, q * number(m as f64), q * point.sin)
                 };
-                row.push(Place { tau, mu, leaning: point.lean * p });
+                row.push(NodeHarmonics { tau, mu, leaning: point.lean * p });
             }
         }
         rows
