@@ -52,12 +52,15 @@ pub fn compile(
     })
 }
 
+/// Slots of variables with their values before the first step.
+type InitialValues = Vec<(u32, Value)>;
+
 /// The plan of `program`, and the values of its variables before the first step.
 fn plan(
     program: Program,
     library: &DataFiles,
     options: &Options,
-) -> Result<(Plan, Vec<(u32, Value)>), Vec<Diagnostic>> {
+) -> Result<(Plan, InitialValues), Vec<Diagnostic>> {
     let mut binder = Binder::new(options.mode, library);
     let class = model::class(&program.model, &mut binder);
     let required = variables::required(&program, &mut binder);

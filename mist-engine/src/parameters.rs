@@ -72,7 +72,7 @@ impl ModelParameters {
         let before = previous.map(|parameters| &*parameters.root);
         self.root
             .edit()
-            .set(path.from_model(), input, &mut context, before)
+            .set(path.relative_to_model(), input, &mut context, before)
             .map_err(|error| error.named(path.as_str()))
     }
 
@@ -94,7 +94,7 @@ impl ModelParameters {
     /// True if `path` names a parameter of an object, which forgets what it was when it is set,
     /// and not a setting of a table, of optical constants or of films.
     pub(crate) fn belongs_to_object(&self, path: &ParameterPath) -> bool {
-        self.root.owns(path.from_model())
+        self.root.owns(path.relative_to_model())
     }
 
     /// Sets every parameter called `lambda`, of the model and of all objects in it, in µm; under

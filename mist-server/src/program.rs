@@ -118,7 +118,6 @@ impl ProgramRequest {
             job: self.job.clone().unwrap_or_else(|| "job".into()),
             seed: self.seed.unwrap_or(1),
             limits,
-            ..Options::default()
         }
     }
 

@@ -4,10 +4,10 @@
 //! and gives the 4×4 Mueller BRDF (1/sr) of one incident beam and many directions:
 //!
 //! ```
-//! use scattering::{Basis, Geometry, Mode, Node, models};
+//! use scattering::{Basis, Geometry, Mode, ParameterNode, models};
 //!
 //! let class = &models::find("Lambertian_BRDF_Model").unwrap().class;
-//! let model = models::build(&Node::with_defaults(class, Mode::Sound)).unwrap();
+//! let model = models::build(&ParameterNode::with_defaults(class, Mode::Sound)).unwrap();
 //! let at = Geometry { theta_i: 0.7, theta_s: 0.2, phi_s: 1.0, rotation: 0.0 };
 //! let f = model.mueller(&at, Basis::Psps);
 //! assert!((f[(0, 0)] * std::f64::consts::PI - 1.0).abs() < 1e-15);

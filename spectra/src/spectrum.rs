@@ -153,7 +153,7 @@ impl Spectrum {
         let unit = match named.or_else(|| WavelengthUnit::of_range([first, last])) {
             Some(unit) => unit,
             // Too few or invalid wavelengths have an error of their own.
-            None if !(first > 0.0 && first.is_finite()) || !last.is_finite() => {
+            None if !(first > 0.0 && first.is_finite() && last.is_finite()) => {
                 WavelengthUnit::Nanometre
             }
             None => return Err(SpectrumError::Unit { first, last }),

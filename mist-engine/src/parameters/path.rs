@@ -56,7 +56,7 @@ impl ParameterPath {
     }
 
     /// The whole path, seen from the model.
-    pub(crate) fn from_model(&self) -> RelativePath<'_> {
+    pub(crate) fn relative_to_model(&self) -> RelativePath<'_> {
         RelativePath { path: self, at: 0 }
     }
 }
@@ -121,9 +121,9 @@ mod tests {
     fn a_path_finds_its_parameter_in_every_class_that_has_it() {
         let facet = scattering::models::find("Facet_BRDF_Model").unwrap();
         let path = ParameterPath::resolve(&facet.class, "sdf.s");
-        let (position, param) = path.from_model().find_in(&facet.class).unwrap();
+        let (position, param) = path.relative_to_model().find_in(&facet.class).unwrap();
         assert_eq!(facet.class.parameters().nth(position).unwrap().name, param.name);
-        let rest = path.from_model().rest().unwrap();
+        let rest = path.relative_to_model().rest().unwrap();
         assert_eq!((rest.name(), rest.text(), rest.rest().is_none()), ("s", "s", true));
         for name in
             ["Gaussian_Slope_Distribution_Function", "Exponential_Slope_Distribution_Function"]

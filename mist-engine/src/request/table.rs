@@ -88,6 +88,12 @@ impl TableQuery {
         })
     }
 
+    /// True when the query names a grid, its axes or patches.
+    pub fn has_directions(&self) -> bool {
+        let axes = [&self.grid, &self.thetai, &self.thetas, &self.phis];
+        self.patches.is_some() || axes.iter().any(|axis| axis.is_some())
+    }
+
     /// The directions of the query.
     fn directions(&self) -> Result<TableDirections, RequestError> {
         if let Some(PatchList(rows)) = &self.patches {

@@ -86,7 +86,12 @@ impl Rows {
     fn check_abscissae(&self, text: &str, line: usize) -> Result<(), TableError> {
         let whole = self.numbers.iter().all(|x| x.fract() == 0.0);
         let repeats = self.abscissae().zip(self.abscissae().skip(1)).any(|(a, b)| a == b);
-        if whole && repeats && self.columns >= 4 && self.columns % 2 == 0 && text.contains(',') {
+        if whole
+            && repeats
+            && self.columns >= 4
+            && self.columns.is_multiple_of(2)
+            && text.contains(',')
+        {
             let item = text.lines().nth(line - 1).unwrap_or_default().trim().to_owned();
             return Err(TableError::DecimalComma { line, item });
         }

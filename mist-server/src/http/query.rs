@@ -118,7 +118,12 @@ impl MaterialQuery {
 
     /// The table of the material called `name` for the grid or the patches in the query.
     pub(super) fn request(&self, name: &str) -> Result<TableRequest, ApiError> {
-        Ok(self.query()?.request(name, None)?)
+        let query = self.query()?;
+        if !query.has_directions() {
+            let problem = "a grid is missing: thetai, thetas and phis, or grid, or patches";
+            return Err(ApiError::Query(problem.to_owned()));
+        }
+        Ok(query.request(name, None)?)
     }
 
     /// The same for these patches.

@@ -137,7 +137,7 @@ fn close(down: &mut RealMatrix, up: &mut RealMatrix, root: &[f64], rows: &[[f64;
     let [d, u] = [&*down, &*up].map(|m| block.of_whole(m));
     let n = d.nrows();
     let mut both = super::block::joined([[&d, &u], [&u, &d]]);
-    let flux = |row: usize| if row % 2 == 0 { root[row % n / 2] } else { 0.0 };
+    let flux = |row: usize| if row.is_multiple_of(2) { root[row % n / 2] } else { 0.0 };
     let target = |row: usize| rows[row % n / 2][row % 2] * root[row % n / 2];
     let flux: Vec<f64> = (0..2 * n).map(flux).collect();
     let target: Vec<f64> = (0..2 * n).map(target).collect();

@@ -224,7 +224,7 @@ impl<'a> HeightTransport<'a> {
         let mut x = joined([[&r_down, &t_up], [&t_down, &r_up]]);
         x = (&x + block.reversed(&x)) * faer::Scale(0.5);
         if block == TransferBlock::Intensity {
-            let flux = |row: usize| if row % s == 0 { self.flux(row / s) } else { 0.0 };
+            let flux = |row: usize| if row.is_multiple_of(s) { self.flux(row / s) } else { 0.0 };
             let flux: Vec<f64> = (0..x.nrows()).map(flux).collect();
             books::close(&mut x, &flux, &flux);
         }

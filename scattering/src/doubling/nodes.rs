@@ -104,12 +104,22 @@ impl RayNodes {
     pub fn len(&self) -> usize {
         self.rays.len()
     }
+
+    /// True when there is no node.
+    pub fn is_empty(&self) -> bool {
+        self.rays.is_empty()
+    }
 }
 
 impl MediumDirections {
     /// The number of nodes per hemisphere.
     pub fn len(&self) -> usize {
         self.mu.len()
+    }
+
+    /// True when no node propagates in the medium.
+    pub fn is_empty(&self) -> bool {
+        self.mu.is_empty()
     }
 
     /// √(w/μ) of node `i`.

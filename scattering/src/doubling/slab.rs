@@ -157,7 +157,7 @@ pub fn close(
     let mut both = joined([[down, up], [up, down]]);
     let root = |row: usize| {
         let node = row % n / 2;
-        if row % 2 == 0 { directions.w[node].sqrt() } else { 0.0 }
+        if row.is_multiple_of(2) { directions.w[node].sqrt() } else { 0.0 }
     };
     let flux: Vec<f64> = (0..2 * n).map(root).collect();
     let missed = books::close(&mut both, &flux, &flux);

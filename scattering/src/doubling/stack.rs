@@ -336,7 +336,7 @@ impl<'a> TransferProblem<'a> {
                 if light == LightPart::All && block == TransferBlock::Intensity =>
             {
                 let root = |row: usize| directions.root_flux(row / 2);
-                let both = |i: usize, j: usize| i % 2 == 0 && j % 2 == 0;
+                let both = |i: usize, j: usize| i.is_multiple_of(2) && j.is_multiple_of(2);
                 RealMatrix::from_fn(size, size, |i, j| {
                     if both(i, j) { 2.0 * rho * root(i) * root(j) } else { 0.0 }
                 })

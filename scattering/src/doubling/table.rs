@@ -211,7 +211,7 @@ fn interpolation(thetas: &[f64], steps: usize, m: usize) -> RealMatrix {
             others.map(|(_, t)| 0.25 * std::f64::consts::PI / (all[i] - t)).product()
         })
         .collect();
-    let parity = if m % 2 == 0 { 1.0 } else { -1.0 };
+    let parity = if m.is_multiple_of(2) { 1.0 } else { -1.0 };
     let n = thetas.len();
     let mut weights = RealMatrix::zeros(steps + 1 + BEYOND, n);
     for g in 0..steps + 1 + BEYOND {

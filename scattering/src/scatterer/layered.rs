@@ -5,8 +5,8 @@
 //! so that either may be zero, the pair at the outer face is
 //!
 //! $$ \begin{pmatrix} u_l \\ v_l \end{pmatrix} =
-//!    G_\zeta \begin{pmatrix} \psi_n' \\ \psi_n \end{pmatrix}(m_l x_l)
-//!    - G_\psi \begin{pmatrix} \zeta_n' \\ \zeta_n \end{pmatrix}(m_l x_l), \qquad
+//!    G_\zeta \begin{pmatrix} \psi_n' \\ \psi_n \end{pmatrix}(m_l x_l) -
+//!    G_\psi \begin{pmatrix} \zeta_n' \\ \zeta_n \end{pmatrix}(m_l x_l), \qquad
 //!    G_f = m_l u_{l-1} f(m_l x_{l-1}) - m_{l-1} v_{l-1} f'(m_l x_{l-1}) $$
 //!
 //! for a_n, and with m_l and m_{l−1} exchanged for b_n. The core has (ψ_n', ψ_n). Outside

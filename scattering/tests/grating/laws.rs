@@ -176,24 +176,31 @@ fn crossed_model_of_lines_is_the_line_model_for_every_angle_of_the_axes() {
 
 #[test]
 fn two_dimensional_harmonics_of_leaning_lines_change_nothing() {
-    // A flat upper grating makes the model keep both axes; with the lower lines alone the
-    // harmonics of axis 2 must stay empty.
-    let flat = member(
-        "Sinusoidal_Relief_Grating",
-        &[
-            ("period", number(0.6)),
-            ("medium_t", index(1.0, 0.0)),
-            ("material", index(1.0, 0.0)),
-            ("amplitude", number(0.1)),
-            ("nlevels", integer(1)),
-        ],
-    );
-    let values = [("top", flat), ("bottom", lines(GLASS.period)), ("angle", number(65.0))];
-    let both = crossed(GLASS.lambda, 2, 0, "Overlaid_1D_CrossGrating", &values);
+    // A flat second grating makes the model keep both axes; with the lines alone the harmonics of
+    // the other axis must stay empty. The upper lines vary along axis 1, which is at −25° against
+    // x, the lower ones along axis 2, which is at 90°.
+    let flat = |medium: f64| {
+        member(
+            "Sinusoidal_Relief_Grating",
+            &[
+                ("period", number(0.6)),
+                ("medium_i", index(medium, 0.0)),
+                ("medium_t", index(medium, 0.0)),
+                ("material", index(medium, 0.0)),
+                ("amplitude", number(0.1)),
+                ("nlevels", integer(1)),
+            ],
+        )
+    };
     let line = LineStack { order: 2, ..GLASS }.model(0, "Triangular_Grating", &triangular());
-    let turn = 25.0 * PI / 180.0;
-    let (a, b) = (specular(&both, 0.5, 0.4), specular(&line, 0.5, 0.4 - turn));
-    assert_same(a, b, ROUNDING, "lower lines");
+    let upper = [("top", lines(GLASS.period)), ("bottom", flat(1.5)), ("angle", number(65.0))];
+    let lower = [("top", flat(1.0)), ("bottom", lines(GLASS.period)), ("angle", number(65.0))];
+    for (values, degrees, what) in [(upper, -25.0_f64, "upper lines"), (lower, 90.0, "lower lines")]
+    {
+        let both = crossed(GLASS.lambda, 2, 0, "Overlaid_1D_CrossGrating", &values);
+        let want = specular(&line, 0.5, 0.4 + degrees.to_radians());
+        assert_same(specular(&both, 0.5, 0.4), want, ROUNDING, what);
+    }
 }
 
 #[test]

@@ -140,7 +140,7 @@ impl PaintSlab {
             let own = [p[(0, 0)], p[(1, 1)], p[(2, 2)], p[(3, 3)], p[(0, 1)], p[(2, 3)]];
             own.map(|x| x * 4.0 * PI)
         };
-        let (series, norm) = PhaseExpansion::converged(&elements, order + 1);
+        let (series, norm) = PhaseExpansion::converged(elements, order + 1);
         if !series.terms.iter().flatten().all(|x| x.is_finite()) {
             let problem = "the phase matrix has no finite expansion";
             return Err(inside(ParameterError::new("", problem)));
