@@ -24,7 +24,7 @@ use crate::{
 ///
 /// # Errors
 ///
-/// As [`render`](crate::render).
+/// As [`render`](fn@crate::render).
 pub fn shade(
     material: &PreparedMaterial,
     [width, height]: [usize; 2],

@@ -21,7 +21,7 @@ pub struct SurfacePoint {
     pub irradiances: Vec<f64>,
 }
 
-/// The lamps of [`shade`](crate::shade).
+/// The lamps of [`shade`](fn@crate::shade).
 #[derive(Clone, Copy, Debug)]
 pub struct DistantLamps<'a> {
     /// Unit vectors to the lamps.

@@ -43,7 +43,7 @@ impl Serialize for JsonNumber {
 ///
 /// # Errors
 ///
-/// For texts that are not a request, and as [`Material::prepare`] and
+/// For texts that are not a request, and as [`Material::prepare`](crate::request::Material::prepare) and
 /// [`PreparedMaterial::model`](super::PreparedMaterial::model).
 pub fn eval(
     request: &str,

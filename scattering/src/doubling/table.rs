@@ -29,7 +29,7 @@ pub struct ModeTable {
     /// Steps from the normal to the horizon.
     steps: usize,
     modes: usize,
-    /// f₊ at [θ_s][θ_i][mode][element], 1/sr.
+    /// f₊, 1/sr; the indices are θ_s, θ_i, mode and element.
     values: Vec<f64>,
 }
 

@@ -116,7 +116,7 @@ impl MieSeries {
     }
 }
 
-/// The amplitudes S1 (⊥), S2 (∥) as the matrix of [`SphericalScatterer`](super::Round).
+/// The amplitudes S1 (⊥), S2 (∥) as the matrix of [`SphericalScatterer`](super::SphericalScatterer).
 pub(super) fn matrix((s1, s2): (Complex64, Complex64)) -> Jones {
     Jones::diagonal(s2, s1)
 }

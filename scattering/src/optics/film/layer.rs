@@ -43,7 +43,7 @@ impl FilmLayer {
         q.im == 0.0 && self.medium.epsilon.im == 0.0
     }
 
-    /// Factor of [`FieldVectors::pass`]: e^{iδ} where the wave decays.
+    /// Factor of [`FieldVectors::pass`](super::vectors::FieldVectors::pass): e^{iδ} where the wave decays.
     pub(super) fn factor(&self, q: Complex64) -> Complex64 {
         if self.is_clear(q) { Complex64::ONE } else { phase_factor(q, self.phase) }
     }
