@@ -39,7 +39,7 @@ pub(super) fn prepared(
     })
 }
 
-/// Why a material cannot be had.
+/// Error of reading a material.
 pub(super) fn refused(error: MaterialError) -> CommandError {
     let message = report::with_help(&error.to_string(), error.help());
     match error {
@@ -50,7 +50,7 @@ pub(super) fn refused(error: MaterialError) -> CommandError {
     }
 }
 
-/// Why a material cannot be exported.
+/// Error of exporting a material.
 pub(super) fn not_exported(error: ExportError) -> CommandError {
     match error {
         ExportError::Material(error) => refused(error),

@@ -7,7 +7,7 @@ use mist_format::{Diagnostic, program::SourceText};
 /// One thing that is wrong with a program at a known place.
 pub type Fault = Box<Diagnostic>;
 
-/// Why a run ended without its tables.
+/// Reason why a run ended without its tables.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// The program is wrong; it would fail on every machine in its first step.

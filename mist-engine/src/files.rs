@@ -32,7 +32,7 @@ pub trait Files: Sync {
 pub struct FileError {
     /// The name in the program.
     pub name: String,
-    /// Why not.
+    /// The reason.
     pub reason: String,
 }
 
@@ -121,7 +121,7 @@ impl DataFiles {
     ///
     /// # Errors
     ///
-    /// What is wrong with it, in words.
+    /// Description of the error, in words.
     pub fn list(&self, name: &str) -> Result<Arc<ListTable>, String> {
         let text = self.text(name).map_err(|error| error.to_string())?;
         ListTable::parse(&text, self.shelf.dialect)

@@ -63,7 +63,7 @@ pub struct OutputRow {
     pub outputs: Vec<f64>,
 }
 
-/// Why a variable cannot be varied.
+/// Reason why a variable cannot be varied.
 #[derive(Debug, thiserror::Error)]
 pub enum FunctionError {
     /// No variables were named.

@@ -26,7 +26,7 @@ use scattering::{Mode, Model, Notice, ParameterError, models, spec::SharedNotice
 
 pub use crate::request::Material;
 
-/// Why a material cannot be had, evaluated or made a table of.
+/// Error of reading, preparing, evaluating or tabulating a material.
 #[derive(Debug, thiserror::Error)]
 pub enum MaterialError {
     /// The JSON text is not a material or a request.
@@ -54,7 +54,7 @@ pub enum MaterialError {
     Patch {
         /// Which one, from 1, in the order of the request.
         number: usize,
-        /// Why not.
+        /// The reason.
         error: RegionError,
     },
     /// The model has no finite value somewhere.
@@ -168,7 +168,7 @@ impl PreparedMaterial {
     ///
     /// # Errors
     ///
-    /// What is wrong with the program in this step.
+    /// The errors of the program in this step.
     pub fn of_step(job: &Job) -> Result<Self, Failure> {
         let step = Replay::new(job).next_step().map_err(|fault| Failure::Program(vec![*fault]))?;
         let empty = || Failure::Limit("the loops of the program have no step".into());

@@ -25,7 +25,7 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// What is wrong with a step, a limit that was reached, a cancellation, a table that cannot
+    /// An error in a step, a limit that was reached, a cancellation, a table that cannot
     /// be written. What `sink` has taken until then is not the table of the job.
     pub fn run(&self, sink: &mut dyn Sink, control: &Control) -> Result<RunSummary, Failure> {
         self.run_on(sink, control, &mut NoJournal)
@@ -95,7 +95,7 @@ impl Job {
     ///
     /// # Errors
     ///
-    /// What is wrong with a step, more steps than the limit, a cancellation.
+    /// An error in a step, more steps than the limit, a cancellation.
     pub fn count_steps(&self, control: &Control) -> Result<u64, Failure> {
         let mut replay = Replay::new(self);
         let mut steps = 0;

@@ -70,7 +70,7 @@ pub struct ColourTolerance {
     pub parameters: Vec<ColourSensitivity>,
 }
 
-/// Why there are no tolerances.
+/// Error of a tolerance analysis.
 #[derive(Debug, thiserror::Error)]
 pub enum ToleranceError {
     /// The program makes no colours.
@@ -92,7 +92,7 @@ pub enum ToleranceError {
         name: String,
         /// Its value.
         value: f64,
-        /// Why not.
+        /// The reason.
         failure: Failure,
     },
 }

@@ -29,7 +29,7 @@ pub struct Merged {
     pub files: Vec<WrittenFile>,
 }
 
-/// Why shards cannot be merged.
+/// Error of merging shards.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// There is no shard.

@@ -23,7 +23,7 @@ pub struct WrittenFile {
     pub path: PathBuf,
 }
 
-/// Why a compiled job has no results on disk.
+/// Reason why a compiled job has no results on disk.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The job failed.

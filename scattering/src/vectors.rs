@@ -28,7 +28,7 @@ pub struct Surface {
     normal: DVec3,
 }
 
-/// Why vectors describe no surface.
+/// Reason why vectors describe no surface.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SurfaceError {
     /// The normal has no direction.

@@ -89,7 +89,7 @@ impl MuellerResult {
     }
 }
 
-/// Why a piece of work has no result.
+/// Reason why a task has no result.
 pub(super) enum TaskError {
     Parameter(ParameterError),
     Adaptive(AdaptiveError),

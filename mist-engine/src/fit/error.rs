@@ -5,7 +5,7 @@ use mist_format::Diagnostic;
 use super::measured::MeasuredError;
 use crate::Failure;
 
-/// Why there is no fit.
+/// Error of a fit.
 #[derive(Debug, thiserror::Error)]
 pub enum FitError {
     /// A setting names something that is not varied, or has an impossible value.
@@ -35,7 +35,7 @@ pub enum FitError {
     Run {
         /// The variables.
         values: Vec<(String, f64)>,
-        /// Why not.
+        /// The reason.
         failure: Failure,
     },
     /// An output is no finite number.

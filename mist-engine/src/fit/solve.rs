@@ -45,7 +45,7 @@ pub(super) struct LeastSquares<'a> {
     /// The variables of the last run and its residuals: the solver asks again for the point that
     /// it has accepted.
     last: Option<(Vec<f64>, Vec<f64>)>,
-    /// Why the fit cannot go on.
+    /// The error that ended the fit.
     broken: Option<FitError>,
 }
 

@@ -1,4 +1,4 @@
-//! Why a parameter cannot be set.
+//! Errors of setting a parameter.
 
 use mist_format::{Diagnostic, Span};
 

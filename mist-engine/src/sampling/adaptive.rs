@@ -49,7 +49,7 @@ pub fn contracted_error(error: &Mueller, pol: &Stokes, inpol: &Stokes) -> f64 {
     pol.dot(&(*error * inpol))
 }
 
-/// Why there is no estimate.
+/// Reason why there is no estimate.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum AdaptiveError {
     /// The region does not exist.

@@ -162,7 +162,7 @@ pub struct EvalError {
     pub kind: EvalErrorKind,
 }
 
-/// Why an evaluation failed.
+/// Error of an evaluation.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EvalErrorKind {
     /// No variable has this name.

@@ -11,7 +11,7 @@ const LONGEST: usize = 255;
 /// Widths and precisions above this are refused: they only fill the line with blanks.
 const WIDEST: usize = 4096;
 
-/// Why a format cannot be used.
+/// Error of a number format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FormatError {
     /// The conversion is not for a double; the result would be arbitrary.

@@ -176,7 +176,7 @@ impl CommonParameters {
 ///
 /// # Errors
 ///
-/// What its parameters get wrong, and a wavelength, type or substrate that is not the parent's.
+/// Invalid parameters of the model, and a wavelength, type or substrate that is not the parent's.
 pub fn nested(
     node: &ParameterNode,
     name: &str,

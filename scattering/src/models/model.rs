@@ -12,7 +12,7 @@ use crate::{
 ///
 /// # Errors
 ///
-/// What its parameters get wrong.
+/// Invalid parameters of the model.
 pub fn build(node: &ParameterNode) -> Result<Model, ParameterError> {
     if node.mode == Mode::Sound {
         range::check(node, node.number("lambda"))?;

@@ -19,7 +19,7 @@ pub trait Reflectance: Send + Sync {
 ///
 /// # Errors
 ///
-/// What its own parameters get wrong; in a sound build a value that is not finite.
+/// Invalid parameters of the class; in a sound build a value that is not finite.
 pub fn read(node: &ParameterNode, name: &str, lambda: f64) -> Result<f64, ParameterError> {
     let reflectance = node.member::<dyn Reflectance>(name)?.at(lambda);
     if node.mode == Mode::Sound && !reflectance.is_finite() {

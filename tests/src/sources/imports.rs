@@ -1,4 +1,4 @@
-//! Which modules of a crate use which others.
+//! Graph of the modules of a crate that use each other.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
