@@ -8,7 +8,10 @@ use rise_bridge::rise::{
     stack,
 };
 
-use super::{error::CommandError, input::InputText, material::not_exported, output::print};
+use super::{
+    error::CommandError, input::InputText, material::not_exported, output::print,
+    reporter::Reporter,
+};
 
 mod args;
 mod deferred;
@@ -21,8 +24,9 @@ use args::LAMBDA;
 use files::{save, save_image};
 
 /// Makes the files, and the pictures if they are asked for.
-pub(super) fn bridge(args: &BridgeArgs) -> Result<(), CommandError> {
+pub(super) fn bridge(args: &BridgeArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let source = InputText::read(&args.scene)?;
+    args.lambda.warn(reporter)?;
     if args.deferred { deferred::deferred(args, &source) } else { tables(args, &source) }
 }
 

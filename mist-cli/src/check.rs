@@ -10,7 +10,8 @@ use super::{
     flags::{CompatFlag, MessageFlag},
     input::InputText,
     output::print,
-    report::{self, MessageFormat},
+    report::MessageFormat,
+    reporter::Reporter,
 };
 
 /// Look for mistakes in programs without running them.
@@ -30,7 +31,7 @@ pub(super) struct CheckArgs {
 }
 
 /// Checks the programs.
-pub(super) fn check(args: &CheckArgs) -> Result<(), CommandError> {
+pub(super) fn check(args: &CheckArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let mut status = ExitStatus::Success;
     for path in &args.programs {
         let source = InputText::program(path)?;
@@ -41,12 +42,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<(), CommandError> {
             Ok(job) => job.advice(),
             Err(diagnostics) => diagnostics,
         };
-        report::print_diagnostics(
-            &found,
-            &source.name(),
-            &source.text,
-            args.message.message_format,
-        );
+        reporter.diagnostics(&found, &source, args.message.message_format);
         let errors = found.iter().filter(|diagnostic| diagnostic.is_error()).count();
         if errors > 0 {
             status = ExitStatus::Refused;

@@ -1,6 +1,8 @@
 //! `mist color`: spectra in, XYZ, Lab and RGB out.
 
-use super::{error::CommandError, input::read_input, output::print};
+use mist_engine::Warning;
+
+use super::{error::CommandError, input::read_input, output::print, reporter::Reporter};
 
 /// Colours of spectra: one case, or {"illuminants": …, "cases": […]}, as JSON.
 ///
@@ -17,12 +19,16 @@ pub(super) struct ColorArgs {
 }
 
 /// Answers the cases.
-pub(super) fn color(args: &ColorArgs) -> Result<(), CommandError> {
+pub(super) fn color(args: &ColorArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let text = read_input(args.input.as_deref())?;
     let request = serde_json::from_str(&text)
         .map_err(|error| CommandError::Refused(format!("the input is not JSON: {error}")))?;
     let response = spectra::case::evaluate(&request)
         .map_err(|error| CommandError::Refused(error.to_string()))?;
+    let subject = args.input.as_deref().map_or("request".into(), |path| path.to_string_lossy());
+    let warnings: Vec<Warning> = response.warnings.iter().map(Warning::from).collect();
+    reporter.warn(&subject, &warnings);
+    reporter.check()?;
     let text = serde_json::to_string(&response)
         .map_err(|error| CommandError::Failed(format!("the answer has no JSON form: {error}")))?;
     print(&(text + "\n"))

@@ -2,13 +2,14 @@
 
 use std::{fmt::Write as _, path::PathBuf};
 
+use mist_engine::Warning;
 use mist_format::number::general;
 use mist_runner::files::AtomicFile;
 use rise_bridge::{read, write};
 use serde_json::json;
 use spectra::{
     Illuminant, Observer, Spectrum,
-    compare::{SpectrumComparison, compare},
+    compare::{NEEDED_NM, SpectrumComparison, compare},
 };
 
 use super::{
@@ -16,6 +17,7 @@ use super::{
     flags::{IlluminantFlag, JsonFlag, ObserverFlag},
     input::InputText,
     output::print,
+    reporter::Reporter,
 };
 
 /// Compare a measured spectrum with a simulated one.
@@ -90,7 +92,10 @@ impl NamedSpectra {
 }
 
 /// Compares and tells.
-pub(super) fn compare_spectra(args: &CompareSpectraArgs) -> Result<(), CommandError> {
+pub(super) fn compare_spectra(
+    args: &CompareSpectraArgs,
+    reporter: &Reporter,
+) -> Result<(), CommandError> {
     let refused = |error: &dyn std::fmt::Display| CommandError::Refused(error.to_string());
     let illuminant =
         Illuminant::parse(&args.illuminant.illuminant).map_err(|error| refused(&error))?;
@@ -107,6 +112,7 @@ pub(super) fn compare_spectra(args: &CompareSpectraArgs) -> Result<(), CommandEr
     for ((m_name, m), (s_name, s)) in measured.iter().zip(&simulated) {
         let comparison = compare(m, s, &illuminant, observer)
             .map_err(|error| CommandError::Refused(format!("{m_name}, {s_name}: {error}")))?;
+        reporter.warn(&format!("{m_name}, {s_name}"), coverage(&comparison).as_slice());
         found.push(([m_name.as_str(), s_name.as_str()], comparison));
     }
     if let Some(path) = &args.plot {
@@ -116,11 +122,28 @@ pub(super) fn compare_spectra(args: &CompareSpectraArgs) -> Result<(), CommandEr
             CommandError::Failed(format!("cannot write {}: {error}", path.display()))
         })?;
     }
+    reporter.check()?;
     let under = format!("{}, {}", illuminant.name(), observer.name());
-    print(&if args.json.json { to_json(&found, &under) } else { describe(&found, &under) })
+    print(&if args.json.json {
+        to_json(&found, &under, &reporter.warnings())
+    } else {
+        describe(&found, &under)
+    })
 }
 
-fn to_json(found: &[([&str; 2], SpectrumComparison)], under: &str) -> String {
+/// A warning if the common wavelengths leave out a part of the visible range.
+fn coverage(comparison: &SpectrumComparison) -> Option<Warning> {
+    let (first, last) = (comparison.wavelengths.first()?, comparison.wavelengths.last()?);
+    (*first > NEEDED_NM[0] || *last < NEEDED_NM[1]).then(|| {
+        let message = format!(
+            "the common wavelengths are {first} to {last} nm: colours and CIEDE2000 depend on the \
+             extrapolation"
+        );
+        Warning::new("spectrum/coverage", message).help("give spectra from 380 to 780 nm")
+    })
+}
+
+fn to_json(found: &[([&str; 2], SpectrumComparison)], under: &str, warnings: &[Warning]) -> String {
     let lab = |lab: spectra::Lab| [lab.l, lab.a, lab.b];
     let all = found.iter().map(|([measured, simulated], c)| {
         json!({
@@ -142,7 +165,8 @@ fn to_json(found: &[([&str; 2], SpectrumComparison)], under: &str) -> String {
             },
         })
     });
-    format!("{}\n", json!({ "colours": under, "comparisons": all.collect::<Vec<_>>() }))
+    let all: Vec<_> = all.collect();
+    format!("{}\n", json!({ "colours": under, "warnings": warnings, "comparisons": all }))
 }
 
 fn describe(found: &[([&str; 2], SpectrumComparison)], under: &str) -> String {

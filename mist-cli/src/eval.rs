@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 use mist_engine::material::eval;
 use mist_runner::files::DiskFiles;
 
-use super::{error::CommandError, flags::CompatFlag, input::read_input, output::print, report};
+use super::{
+    error::CommandError, flags::CompatFlag, input::read_input, output::print, report,
+    reporter::Reporter,
+};
 
 /// Mueller matrices of a model in given directions, as JSON.
 ///
@@ -25,13 +28,16 @@ pub(super) struct EvalArgs {
 }
 
 /// Answers the request.
-pub(super) fn eval(args: &EvalArgs) -> Result<(), CommandError> {
+pub(super) fn eval(args: &EvalArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let text = read_input(args.input.as_deref())?;
     let beside = args.input.as_deref().unwrap_or(Path::new(""));
     let files = DiskFiles::beside(beside).shared();
     let response = eval::eval(&text, args.compat.mode(), Some(files)).map_err(|error| {
         CommandError::Refused(report::with_help(&error.to_string(), error.help()))
     })?;
+    let subject = args.input.as_deref().map_or("request".into(), |path| path.to_string_lossy());
+    reporter.warn(&subject, &response.warnings);
+    reporter.check()?;
     let text = serde_json::to_string(&response)
         .map_err(|error| CommandError::Failed(format!("the answer has no JSON form: {error}")))?;
     print(&(text + "\n"))

@@ -20,6 +20,7 @@ use super::{
     input::InputText,
     material::{not_exported, prepared},
     output::print,
+    reporter::Reporter,
     threads::ThreadsFlag,
 };
 
@@ -79,9 +80,10 @@ pub(super) struct ExportArgs {
 }
 
 /// Writes the file, or compares it.
-pub(super) fn export(args: &ExportArgs) -> Result<(), CommandError> {
+pub(super) fn export(args: &ExportArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let source = InputText::read(&args.material)?;
-    let material = prepared(&args.material, &source, args.compat.mode())?;
+    let material = prepared(&args.material, &source, args.compat.mode(), reporter)?;
+    args.lambda.warn(reporter)?;
     let label = source.stem();
     print(&args.threads.run(&label, |control| done(args, &source, &material, control))??)
 }

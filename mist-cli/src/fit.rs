@@ -12,6 +12,7 @@ use super::{
     error::{CommandError, ExitStatus},
     input::InputText,
     output::print,
+    reporter::Reporter,
     vary::{self, VaryArgs},
 };
 
@@ -71,9 +72,9 @@ fn bounds(text: &str) -> Result<(String, [f64; 2]), String> {
 }
 
 /// Fits and tells.
-pub(super) fn fit(args: &FitArgs) -> Result<(), CommandError> {
+pub(super) fn fit(args: &FitArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let source = InputText::read(&args.vary.program)?;
-    let program = args.vary.open(&source)?;
+    let program = args.vary.open(&source, reporter)?;
     let table = InputText::read(&args.measured)?;
     let measured = MeasuredTable::parse(&table.text, program.titles(), program.headers())
         .map_err(|error| CommandError::Refused(format!("{}: {error}", table.name())))?;
@@ -87,15 +88,15 @@ pub(super) fn fit(args: &FitArgs) -> Result<(), CommandError> {
     };
     let run = |control: &Control| fit::fit(&program, &measured, &settings, control);
     match args.vary.watch("fit", run)? {
-        Ok(found) if args.vary.json.json => print(&vary::json(&found)?),
+        Ok(found) if args.vary.json.json => print(&vary::json(&found, &reporter.warnings())?),
         Ok(found) => print(&describe(&found)),
-        Err(error) => Err(stop(&error, &source, args)),
+        Err(error) => Err(stop(&error, &source, args, reporter)),
     }
 }
 
-fn stop(error: &FitError, source: &InputText, args: &FitArgs) -> CommandError {
+fn stop(error: &FitError, source: &InputText, args: &FitArgs, reporter: &Reporter) -> CommandError {
     if let Some(diagnostics) = error.diagnostics() {
-        vary::tell(diagnostics, source);
+        vary::tell(diagnostics, source, reporter);
         return CommandError::Reported(ExitStatus::Refused);
     }
     match error {

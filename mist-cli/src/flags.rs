@@ -1,10 +1,10 @@
 //! Flags of several commands: one name for one thing.
 
-use mist_engine::request::{RequestError, Wavelengths, read};
+use mist_engine::request::{RequestError, Wavelengths, read, wavelength_warning};
 use preview::LampBasis;
 use scattering::Mode;
 
-use super::{input::InputText, report::MessageFormat};
+use super::{error::CommandError, input::InputText, report::MessageFormat, reporter::Reporter};
 
 /// The flag `--compat`.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -56,6 +56,19 @@ impl LambdaFlag {
     pub(super) fn nm_or(&self, default: &str) -> Result<Vec<f64>, RequestError> {
         let text = self.lambda.as_deref().unwrap_or(default);
         read::<Wavelengths>("lambda", text).map(Wavelengths::into_vec)
+    }
+
+    /// Warns of wavelengths that look like another unit than nm.
+    ///
+    /// # Errors
+    ///
+    /// If warnings are denied, or the text is no list of wavelengths.
+    pub(super) fn warn(&self, reporter: &Reporter) -> Result<(), CommandError> {
+        if let Some(text) = &self.lambda {
+            let nm = read::<Wavelengths>("lambda", text)?.into_vec();
+            reporter.warn("--lambda", wavelength_warning(&nm).as_slice());
+        }
+        reporter.check()
     }
 }
 

@@ -24,6 +24,7 @@ mod output;
 mod preview;
 mod progress;
 mod report;
+mod reporter;
 mod run;
 mod serve;
 mod table;
@@ -34,6 +35,7 @@ mod vary;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use reporter::Reporter;
 
 /// From the physics of a material to its colour in a renderer.
 #[derive(Parser)]
@@ -41,6 +43,9 @@ use clap::{Parser, Subcommand};
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Fail if there is a warning; warnings that are known before the work stop it.
+    #[arg(long, global = true)]
+    deny_warnings: bool,
 }
 
 const EXAMPLES: &str = "\
@@ -79,27 +84,29 @@ enum Command {
 
 /// Runs the command that the arguments of the process name.
 fn main() -> ExitCode {
-    let done = match Cli::parse().command {
-        Command::Run(args) => run::run(args),
+    let Cli { command, deny_warnings } = Cli::parse();
+    let reporter = &Reporter::new(deny_warnings);
+    let done = match command {
+        Command::Run(args) => run::run(args, reporter),
         Command::Merge(args) => merge::merge(&args),
-        Command::Check(args) => check::check(&args),
+        Command::Check(args) => check::check(&args, reporter),
         Command::Models(args) => models::models(&args),
-        Command::Color(args) => color::color(&args),
+        Command::Color(args) => color::color(&args, reporter),
         Command::Fmt(args) => fmt::fmt(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Diff(args) => diff::diff(&args),
-        Command::CompareSpectra(args) => compare_spectra::compare_spectra(&args),
-        Command::Fit(args) => fit::fit(&args),
-        Command::Tolerance(args) => tolerance::tolerance(&args),
-        Command::Table(args) => table::table(&args),
-        Command::Preview(args) => preview::preview(&args),
-        Command::Export(args) => export::export(&args),
-        Command::Bridge(args) => bridge::bridge(&args),
-        Command::Eval(args) => eval::eval(&args),
+        Command::CompareSpectra(args) => compare_spectra::compare_spectra(&args, reporter),
+        Command::Fit(args) => fit::fit(&args, reporter),
+        Command::Tolerance(args) => tolerance::tolerance(&args, reporter),
+        Command::Table(args) => table::table(&args, reporter),
+        Command::Preview(args) => preview::preview(&args, reporter),
+        Command::Export(args) => export::export(&args, reporter),
+        Command::Bridge(args) => bridge::bridge(&args, reporter),
+        Command::Eval(args) => eval::eval(&args, reporter),
         Command::Serve(args) => serve::serve(&args),
         Command::Key(args) => key::key(&args),
     };
-    match done {
+    match done.and_then(|()| reporter.check()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => error.exit(),
     }

@@ -14,13 +14,15 @@ use super::{
     error::{CommandError, ExitStatus},
     input::InputText,
     report::{self, MessageFormat},
+    reporter::Reporter,
 };
 
-/// The material in `source`, which was read from `path`.
+/// The material in `source`, which was read from `path`; its warnings go to `reporter`.
 pub(super) fn prepared(
     path: &Path,
     source: &InputText,
     mode: Mode,
+    reporter: &Reporter,
 ) -> Result<PreparedMaterial, CommandError> {
     let files = DiskFiles::beside(path).shared();
     if source.text.trim_start().starts_with('{') {
@@ -29,10 +31,11 @@ pub(super) fn prepared(
     }
     let options = Options { mode, job: source.stem(), ..Options::default() };
     let told = |diagnostics: &[_]| {
-        report::print_diagnostics(diagnostics, &source.name(), &source.text, MessageFormat::Human);
+        reporter.diagnostics(diagnostics, source, MessageFormat::Human);
         CommandError::Reported(ExitStatus::Refused)
     };
     let job = compile(&source.text, files, &options).map_err(|found| told(&found))?;
+    reporter.warn_of_program(&job.slips(), source, MessageFormat::Human);
     PreparedMaterial::of_step(&job).map_err(|failure| match failure {
         Failure::Program(found) => told(&found),
         other => CommandError::Failed(other.to_string()),

@@ -17,6 +17,7 @@ use super::{
     input::InputText,
     material::{prepared, refused},
     output::print,
+    reporter::Reporter,
     threads::ThreadsFlag,
 };
 
@@ -108,7 +109,7 @@ pub(super) struct PreviewArgs {
 const MOST_SAMPLES: usize = 1 << 30;
 
 /// Renders the picture and writes it.
-pub(super) fn preview(args: &PreviewArgs) -> Result<(), CommandError> {
+pub(super) fn preview(args: &PreviewArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let format = PictureFormat::of_name(&args.output.to_string_lossy());
     let format = format.filter(|format| *format != PictureFormat::Hdr).ok_or_else(|| {
         CommandError::Refused("the name of the output ends with .png, .exr or .pfm".into())
@@ -119,7 +120,8 @@ pub(super) fn preview(args: &PreviewArgs) -> Result<(), CommandError> {
     let scene = args.scene()?;
     let filter = args.polarization()?;
     let source = InputText::read(&args.material)?;
-    let material = prepared(&args.material, &source, args.compat.mode())?;
+    let material = prepared(&args.material, &source, args.compat.mode(), reporter)?;
+    args.lambda.warn(reporter)?;
     let wavelengths = args.lambda.nm_or("400:10:700")?;
     let settings = args.settings()?;
     let made = args.threads.run(&source.stem(), |control| {

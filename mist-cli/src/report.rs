@@ -31,8 +31,8 @@ pub(crate) fn print_line(line: &str) {
 }
 
 /// Prints the diagnostics about the text `source` of the file `file`.
-pub(crate) fn print_diagnostics(
-    diagnostics: &[Diagnostic],
+pub(crate) fn print_diagnostics<'a>(
+    diagnostics: impl IntoIterator<Item = &'a Diagnostic>,
     file: &str,
     source: &str,
     format: MessageFormat,

@@ -21,6 +21,7 @@ use super::{
     output::print,
     progress::TerminalProgress,
     report,
+    reporter::Reporter,
     threads::ThreadsFlag,
 };
 
@@ -72,7 +73,7 @@ impl RunArgs {
 }
 
 /// Runs the programs one after the other; each uses all threads.
-pub(super) fn run(mut args: RunArgs) -> Result<(), CommandError> {
+pub(super) fn run(mut args: RunArgs, reporter: &Reporter) -> Result<(), CommandError> {
     args.take_job_name();
     let args = &args;
     fs::create_dir_all(&args.out).map_err(|error| {
@@ -89,7 +90,7 @@ pub(super) fn run(mut args: RunArgs) -> Result<(), CommandError> {
         let mut statuses = Vec::new();
         for program in &args.programs {
             let control = Control { cancel: cancel.clone(), progress: None };
-            statuses.push(run_one(args, program, control)?);
+            statuses.push(run_one(args, program, control, reporter)?);
             if cancel.load(std::sync::atomic::Ordering::Relaxed) {
                 break;
             }
@@ -100,6 +101,7 @@ pub(super) fn run(mut args: RunArgs) -> Result<(), CommandError> {
     if args.programs.len() > 1 {
         print(&total(&statuses, args.programs.len()))?;
     }
+    reporter.check()?;
     statuses.into_iter().max().unwrap_or(ExitStatus::Success).into_result()
 }
 
@@ -107,6 +109,7 @@ fn run_one(
     args: &RunArgs,
     program: &Path,
     mut control: Control,
+    reporter: &Reporter,
 ) -> Result<ExitStatus, CommandError> {
     let source = match InputText::program(program) {
         Ok(source) => source,
@@ -117,14 +120,8 @@ fn run_one(
         Err(stop) => return Err(stop),
     };
     let options = args.engine.options(&source, args.job.as_deref());
-    let tell = |diagnostics: &[_]| {
-        report::print_diagnostics(
-            diagnostics,
-            &source.name(),
-            &source.text,
-            args.message.message_format,
-        );
-    };
+    let format = args.message.message_format;
+    let tell = |diagnostics: &[_]| reporter.diagnostics(diagnostics, &source, format);
     let job = match compile(&source.text, DiskFiles::beside(program).shared(), &options) {
         Ok(job) => job,
         Err(diagnostics) => {
@@ -132,6 +129,10 @@ fn run_one(
             return Ok(ExitStatus::Refused);
         }
     };
+    reporter.warn_of_program(&job.slips(), &source, format);
+    if reporter.status() == ExitStatus::Refused {
+        return Ok(ExitStatus::Refused);
+    }
     let progress = TerminalProgress::new(&options.job);
     let bar = progress.clone();
     control.progress = Some(Box::new(move |part| bar.set(part)));
@@ -145,6 +146,7 @@ fn run_one(
     match done {
         Ok((said, summary)) => {
             note(&source.name(), &summary);
+            reporter.warn_of_program(&summary.warnings, &source, format);
             print(&said)?;
             Ok(ExitStatus::Success)
         }

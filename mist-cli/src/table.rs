@@ -23,6 +23,7 @@ use super::{
     input::InputText,
     material::{prepared, refused},
     output::print,
+    reporter::Reporter,
     threads::ThreadsFlag,
 };
 
@@ -103,7 +104,7 @@ pub(super) struct TableArgs {
 }
 
 /// Makes the table and writes it.
-pub(super) fn table(args: &TableArgs) -> Result<(), CommandError> {
+pub(super) fn table(args: &TableArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let format = FileFormat::of_file(&args.output.to_string_lossy());
     let writer = format.and_then(FileFormat::colours).ok_or_else(|| {
         let known = formats::extensions(formats::of_colours().map(|(format, _)| format));
@@ -117,7 +118,7 @@ pub(super) fn table(args: &TableArgs) -> Result<(), CommandError> {
     }
     let table = match &args.from {
         Some(from) => args.coloured(from)?,
-        None => args.computed()?,
+        None => args.computed(reporter)?,
     };
     let style = Style { digits: args.digits, xyz: args.xyz };
     let written = colours::save(writer, &table, &args.output, style)
@@ -155,10 +156,10 @@ impl TableArgs {
     }
 
     /// The table of a material.
-    fn computed(&self) -> Result<ColourTable, CommandError> {
+    fn computed(&self, reporter: &Reporter) -> Result<ColourTable, CommandError> {
         let path = self.material.as_deref().unwrap_or(Path::new(""));
         let source = InputText::read(path)?;
-        let prepared = prepared(path, &source, self.compat.mode())?;
+        let prepared = prepared(path, &source, self.compat.mode(), reporter)?;
         let patches = self.patches.as_deref().map(InputText::read).transpose()?;
         let patches = patches.map(|source| read::<PatchList>("patches", &source.text));
         let query = TableQuery {
@@ -173,7 +174,12 @@ impl TableArgs {
             ..TableQuery::default()
         };
         let request = query.request(&source.stem(), Some(&DiskFiles::beside(path)))?;
+        reporter.warn(&source.name(), &request.warnings());
+        reporter.check()?;
         let made = |control: &_| table::table(&prepared, &request, control);
-        self.threads.run(&source.stem(), made)?.map_err(refused)
+        let mut table = self.threads.run(&source.stem(), made)?.map_err(refused)?;
+        reporter.warn(&source.name(), &table.warnings);
+        table.warnings = reporter.warnings();
+        Ok(table)
     }
 }

@@ -10,6 +10,7 @@ use super::{
     error::{CommandError, ExitStatus},
     input::InputText,
     output::print,
+    reporter::Reporter,
     vary::{self, VaryArgs},
 };
 
@@ -32,15 +33,15 @@ pub(super) struct ToleranceArgs {
 }
 
 /// Computes and tells.
-pub(super) fn tolerance(args: &ToleranceArgs) -> Result<(), CommandError> {
+pub(super) fn tolerance(args: &ToleranceArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let source = InputText::read(&args.vary.program)?;
-    let program = args.vary.open(&source)?;
+    let program = args.vary.open(&source, reporter)?;
     let run = |control: &Control| tolerance::tolerance(&program, args.step, control);
     match args.vary.watch("tolerance", run)? {
-        Ok(found) if args.vary.json.json => print(&vary::json(&found)?),
+        Ok(found) if args.vary.json.json => print(&vary::json(&found, &reporter.warnings())?),
         Ok(found) => print(&describe(&found)),
         Err(ToleranceError::Run { failure: Failure::Program(diagnostics), .. }) => {
-            vary::tell(&diagnostics, &source);
+            vary::tell(&diagnostics, &source, reporter);
             Err(CommandError::Reported(ExitStatus::Refused))
         }
         Err(error @ ToleranceError::Run { .. }) => Err(CommandError::Failed(error.to_string())),

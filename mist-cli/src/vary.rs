@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use mist_engine::{
-    Control,
+    Control, Warning,
     function::{FunctionError, ProgramFunction},
 };
 use mist_format::Diagnostic;
@@ -13,7 +13,8 @@ use super::{
     error::{CommandError, ExitStatus},
     flags::{EngineFlags, JsonFlag},
     input::InputText,
-    report::{self, MessageFormat},
+    report::MessageFormat,
+    reporter::Reporter,
     threads::ThreadsFlag,
 };
 
@@ -35,17 +36,27 @@ pub(super) struct VaryArgs {
 
 impl VaryArgs {
     /// The program of `source` as a function of its variables.
-    pub(super) fn open(&self, source: &InputText) -> Result<ProgramFunction, CommandError> {
+    ///
+    /// Its warnings go to `reporter`, and stop the command if they are denied.
+    pub(super) fn open(
+        &self,
+        source: &InputText,
+        reporter: &Reporter,
+    ) -> Result<ProgramFunction, CommandError> {
         let files = DiskFiles::beside(&self.program).shared();
         let options = self.engine.options(source, None);
         let names: Vec<String> = self.vary.iter().map(|name| name.trim().to_owned()).collect();
-        ProgramFunction::new(&source.text, files, options, &names).map_err(|error| match error {
+        let function = ProgramFunction::new(&source.text, files, options, &names);
+        let function = function.map_err(|error| match error {
             FunctionError::Program(diagnostics) => {
-                tell(&diagnostics, source);
+                tell(&diagnostics, source, reporter);
                 CommandError::Reported(ExitStatus::Refused)
             }
             other => CommandError::Refused(format!("{}: {other}", source.name())),
-        })
+        })?;
+        reporter.warn_of_program(&function.slips(), source, MessageFormat::Human);
+        reporter.check()?;
+        Ok(function)
     }
 
     /// Does `work` on the threads that were asked for, with a bar called `label`.
@@ -59,13 +70,25 @@ impl VaryArgs {
 }
 
 /// Tells what is wrong with the program.
-pub(super) fn tell(diagnostics: &[Diagnostic], source: &InputText) {
-    report::print_diagnostics(diagnostics, &source.name(), &source.text, MessageFormat::Human);
+pub(super) fn tell(diagnostics: &[Diagnostic], source: &InputText, reporter: &Reporter) {
+    reporter.diagnostics(diagnostics, source, MessageFormat::Human);
 }
 
-/// A result as a line of JSON.
-pub(super) fn json(found: &impl serde::Serialize) -> Result<String, CommandError> {
-    serde_json::to_string(found)
+/// A result with its warnings.
+#[derive(serde::Serialize)]
+struct WithWarnings<'a, T> {
+    #[serde(flatten)]
+    found: &'a T,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    warnings: &'a [Warning],
+}
+
+/// A result as a line of JSON, with the key `warnings` if there are any.
+pub(super) fn json(
+    found: &impl serde::Serialize,
+    warnings: &[Warning],
+) -> Result<String, CommandError> {
+    serde_json::to_string(&WithWarnings { found, warnings })
         .map(|text| text + "\n")
         .map_err(|error| CommandError::Failed(format!("the result has no JSON form: {error}")))
 }

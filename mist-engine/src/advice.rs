@@ -35,6 +35,8 @@ use reading::Reading;
 
 /// Steps that are looked at; those of longer programs are estimated from them.
 const STEPS: u64 = 4096;
+/// Steps at the ends of loops that are looked at.
+const END_STEPS: u64 = 512;
 /// Different models that are built.
 const MODELS: usize = 16;
 
@@ -45,14 +47,29 @@ impl Job {
     pub fn advice(&self) -> Vec<Diagnostic> {
         let mut rehearsal = Rehearsal::new(self);
         let mut found: Vec<_> = rehearsal.run().err().into_iter().map(|fault| *fault).collect();
+        rehearsal.see_ends();
         found.extend(unused::warnings(self));
-        found.extend(rehearsal.readings.iter().filter_map(|reading| reading.warning(self)));
-        found.extend(angles::functions(self));
+        found.extend(rehearsal.slips());
         found.extend(rehearsal.apertures.warnings(rehearsal.all_steps()));
-        found.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
-        found.dedup_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
-        found
+        in_order_of_text(found)
     }
+
+    /// Warnings of numbers that look like slips: degrees for radians, nm for µm. They are part of
+    /// [`Job::advice`]; every command prints them.
+    ///
+    /// Up to 512 steps at the ends of the loops are replayed; no model is built.
+    pub fn slips(&self) -> Vec<Diagnostic> {
+        let mut rehearsal = Rehearsal::new(self);
+        rehearsal.see_ends();
+        in_order_of_text(rehearsal.slips())
+    }
+}
+
+/// The findings in the order of the text, one of a kind at each place.
+fn in_order_of_text(mut found: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    found.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+    found.dedup_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+    found
 }
 
 /// The steps of a job, looked at one by one.
@@ -97,6 +114,27 @@ impl<'j> Rehearsal<'j> {
             }
         }
         Ok(())
+    }
+
+    /// Looks at the numbers of the steps at the ends of loops, up to the first that fails.
+    fn see_ends(&mut self) {
+        let mut replay = Replay::new(self.job).showing(false).at_ends();
+        for _ in 0..END_STEPS {
+            let Ok(Some(_)) = replay.next_step() else { return };
+            let slots = replay.values_mut().slots_mut();
+            self.readings.iter_mut().for_each(|reading| reading.see(slots));
+            if self.job.graph.in_order {
+                return;
+            }
+        }
+    }
+
+    /// Warnings of the numbers that were seen.
+    fn slips(&self) -> Vec<Diagnostic> {
+        let mut found: Vec<_> =
+            self.readings.iter().filter_map(|reading| reading.warning(self.job)).collect();
+        found.extend(angles::functions(self.job));
+        found
     }
 
     fn see(&mut self, step: &Step) -> Result<(), Fault> {

@@ -128,6 +128,11 @@ impl ProgramFunction {
         Ok(Self { job, variables, names, start, titles, headers })
     }
 
+    /// Warnings of its text: [`Job::slips`].
+    pub fn slips(&self) -> Vec<Diagnostic> {
+        self.job.slips()
+    }
+
     /// The variables, as the program writes them.
     pub fn names(&self) -> &[String] {
         &self.names

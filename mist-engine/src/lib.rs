@@ -44,6 +44,7 @@ mod sum;
 mod sweep;
 mod uncertainty;
 mod values;
+mod warning;
 
 pub mod colour;
 pub mod compile;
@@ -71,3 +72,4 @@ pub use limits::{Control, Limits};
 pub use output::{MemorySink, OutputStream, Sink, TableLine};
 pub use run::RunSummary;
 pub use step::{Evaluated, Step};
+pub use warning::Warning;

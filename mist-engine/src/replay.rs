@@ -66,6 +66,8 @@ pub struct Replay<'j> {
     ended: bool,
     /// True if the columns of the loops are needed.
     shows: bool,
+    /// True if FOR loops have two values.
+    ends_only: bool,
 }
 
 impl<'j> Replay<'j> {
@@ -90,6 +92,7 @@ impl<'j> Replay<'j> {
             index: 0,
             ended: false,
             shows: true,
+            ends_only: false,
         }
     }
 
@@ -97,6 +100,11 @@ impl<'j> Replay<'j> {
     pub(crate) fn showing(mut self, shows: bool) -> Self {
         self.shows = shows;
         self
+    }
+
+    /// The same replay with the first and the last value of each FOR loop only.
+    pub(crate) fn at_ends(self) -> Self {
+        Self { ends_only: true, ..self }
     }
 
     /// True if the last step was made.
@@ -180,7 +188,7 @@ impl<'j> Replay<'j> {
 
     /// Goes to the next combination of loop values; false after the last one.
     fn move_loops(&mut self) -> Result<bool, Fault> {
-        let mut context = context(self.job, &mut self.values, self.shows);
+        let mut context = context(self.job, &mut self.values, (self.shows, self.ends_only));
         match &mut self.sweep {
             Some(sweep) => sweep.advance(&mut context),
             None => {
@@ -193,7 +201,9 @@ impl<'j> Replay<'j> {
     /// Writes the values of the loops into their entries.
     fn write_loops(&mut self) -> Result<(), Fault> {
         let Some(sweep) = &mut self.sweep else { return Ok(()) };
-        for written in sweep.write(&mut context(self.job, &mut self.values, self.shows))? {
+        for written in
+            sweep.write(&mut context(self.job, &mut self.values, (self.shows, self.ends_only)))?
+        {
             self.values.mark(written.entry);
             self.overrides[written.entry] = Some(Override::new(written.content));
         }
@@ -252,9 +262,9 @@ impl<'j> Replay<'j> {
 fn context<'a, 'j>(
     job: &'j Job,
     values: &'a mut NodeValues<'j>,
-    shows: bool,
+    (shows, ends_only): (bool, bool),
 ) -> LoopContext<'a, 'j> {
-    LoopContext { plan: &job.plan, values, mode: job.options.mode, shows }
+    LoopContext { plan: &job.plan, values, mode: job.options.mode, shows, ends_only }
 }
 
 /// The text that a loop wrote into an entry, compiled.

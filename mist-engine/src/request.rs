@@ -25,6 +25,7 @@ mod material;
 mod nodes;
 mod parameters;
 mod patch;
+mod slips;
 mod table;
 
 pub use colours::ColourQuery;
@@ -35,4 +36,5 @@ pub use incident::IncidentLight;
 pub use material::{Material, MaterialDescription, ProgramDescription};
 pub use nodes::{Nodes, Wavelengths};
 pub use patch::{Patch, PatchList, PatchRow};
+pub use slips::wavelength_warning;
 pub use table::{TableDirections, TableQuery, TableRequest};

@@ -56,6 +56,7 @@ fn full() -> ColourTable {
         stokes: 4,
         rows: (0..6).map(row).collect(),
         albedo: vec![Albedo { thetai: 30.0, rgb: [0.5, 0.25, 1.0 / 3.0], intensity: 0.3 }],
+        warnings: Vec::new(),
     }
 }
 

@@ -18,6 +18,7 @@
 //! | `filters` | `linear_polariser`, `linear_retarder`, `circular_analyser`, or text | none |
 //! | `rgb` (or `expected.rgb`) | list of objects with `space` and `adaptation`, or of such pairs | all spaces × none, Bradford, CAT02, CAT16 |
 //!
+//! The answer has `results`, one per case, and `warnings` of spectra that are probably not what was meant.
 //! Other fields are notes and are ignored; a field that resembles one of these is an error.
 
 mod error;
@@ -26,7 +27,9 @@ mod fields;
 mod light;
 mod request;
 mod response;
+mod warnings;
 
 pub use error::CaseError;
 pub use evaluate::evaluate;
 pub use response::{CaseResult, ColourResponse, RgbResult};
+pub use warnings::CaseWarning;

@@ -23,6 +23,8 @@ use crate::{
     wavelength::GridError,
 };
 
+/// Wavelengths that a spectrum must cover, nm: less than 1 % of the colour lies outside.
+pub const NEEDED_NM: [f64; 2] = [420.0, 680.0];
 /// Wavelengths without which colours would be those of the extrapolation, nm.
 const VISIBLE_NM: [f64; 2] = [400.0, 700.0];
 

@@ -45,7 +45,7 @@ pub enum SpectrumError {
 }
 
 /// The range of the sums for colours, nm.
-const VISIBLE_NM: [f64; 2] = [360.0, 830.0];
+pub(crate) const VISIBLE_NM: [f64; 2] = [360.0, 830.0];
 
 /// The longest wavelength that counts as Å without a heading.
 const LONGEST_ANGSTROM: f64 = 12_000.0;
@@ -89,7 +89,7 @@ impl WavelengthUnit {
 
     /// The unit in which the longest part of the range is visible, if any is. Ångström beyond
     /// [`LONGEST_ANGSTROM`] may be nanometres of the infrared, so the heading must tell.
-    fn of_range([first, last]: [f64; 2]) -> Option<Self> {
+    pub(crate) fn of_range([first, last]: [f64; 2]) -> Option<Self> {
         let visible = |unit: &Self| {
             let [low, high] = [first, last].map(|w| unit.to_nm(w));
             high.min(VISIBLE_NM[1]) - low.max(VISIBLE_NM[0])
@@ -97,6 +97,15 @@ impl WavelengthUnit {
         let best = Self::ALL.into_iter().max_by(|a, b| visible(a).total_cmp(&visible(b)))?;
         let is_certain = best != Self::Angstrom || last <= LONGEST_ANGSTROM;
         (visible(&best) >= 0.0 && is_certain).then_some(best)
+    }
+
+    /// Its symbol.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Micrometre => "um",
+            Self::Nanometre => "nm",
+            Self::Angstrom => "angstrom",
+        }
     }
 
     fn to_nm(self, wavelength: f64) -> f64 {

@@ -140,6 +140,7 @@ impl<'a> Fold<'a> {
             stokes,
             rows,
             albedo: Vec::new(),
+            warnings: Vec::new(),
         })
     }
 }

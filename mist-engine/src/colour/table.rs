@@ -1,6 +1,8 @@
 //! A colour table: per direction the linear RGB and the intensity of each Stokes component,
 //! with everything that is needed to read it rightly.
 
+use crate::Warning;
+
 /// A table of colours over directions, ready to be written in any format.
 ///
 /// Angles are degrees, solid angles sr, wavelengths nm. Values are 1/sr for the quantity
@@ -41,6 +43,8 @@ pub struct ColourTable {
     pub rows: Vec<ColourRow>,
     /// Hemispherical reflectance per incidence node; may be empty.
     pub albedo: Vec<Albedo>,
+    /// Warnings of the computation; only the JSON form has them.
+    pub warnings: Vec<Warning>,
 }
 
 /// The order of the rows.

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use super::MaterialError;
 use crate::{
-    Files,
+    Files, Warning,
     request::{EvaluationRequest, GeometryAngles, read},
 };
 
@@ -22,6 +22,9 @@ pub struct EvaluationResponse {
     /// Limits of the model that the parameters pass.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub limits: Vec<String>,
+    /// Numbers that are probably not what was meant.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Warning>,
 }
 
 /// A number that JSON shows as it is if it is finite, else as "nan", "inf" or "-inf".
@@ -64,6 +67,7 @@ pub fn answer(
     mode: Mode,
     more_files: Option<Arc<dyn Files + Send + Sync>>,
 ) -> Result<EvaluationResponse, MaterialError> {
+    let mut warnings = request.warnings();
     let (material, basis, geometries) = request.into_parts();
     let basis: Basis = read("basis", &basis)?;
     let (model, met) = material.prepare(mode, more_files)?.model()?;
@@ -72,11 +76,28 @@ pub fn answer(
         let GeometryAngles { theta_i, theta_s, phi_s, rotation } = *a;
         model.mueller(&Geometry { theta_i, theta_s, phi_s, rotation }, basis)
     };
+    let mueller: Vec<_> = geometries.iter().map(|angles| row(at(angles))).collect();
+    warnings.extend(not_finite(&mueller));
+    warnings.extend(met.iter().filter_map(Warning::of_notice));
     Ok(EvaluationResponse {
-        mueller: geometries.iter().map(|angles| row(at(angles))).collect(),
+        mueller,
         defects: met.iter().filter_map(defect).collect(),
         limits: met.iter().filter_map(limit).collect(),
+        warnings,
     })
+}
+
+/// A warning of matrices that have values which are not finite.
+fn not_finite(mueller: &[[JsonNumber; 16]]) -> Option<Warning> {
+    let is_finite = |matrix: &&[JsonNumber; 16]| matrix.iter().all(|x| x.0.is_finite());
+    let count = mueller.len() - mueller.iter().filter(is_finite).count();
+    let first = mueller.iter().position(|matrix| !is_finite(&matrix))?;
+    let message = format!(
+        "{count} of {} matrices have values that are not finite, first geometry {}",
+        mueller.len(),
+        first + 1
+    );
+    Some(Warning::new("value/not-finite", message).help("leave the exact mirror direction out"))
 }
 
 fn defect(notice: &Notice) -> Option<String> {

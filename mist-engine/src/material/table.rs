@@ -209,6 +209,7 @@ impl Colours {
             stokes: head.stokes,
             rows,
             albedo,
+            warnings: Vec::new(),
         }
     }
 }

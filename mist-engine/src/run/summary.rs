@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use mist_format::Diagnostic;
 use scattering::Notice;
 
 use crate::colour::ColourTable;
@@ -17,6 +18,8 @@ pub struct RunSummary {
     pub seconds: f64,
     /// Defects of NIST's library that a sound run avoided, limits that it passed.
     pub met: BTreeSet<Notice>,
+    /// Warnings of results that are probably not what was meant, at their places in the program.
+    pub warnings: Vec<Diagnostic>,
     /// The colour table, if the program has a section COLOR.
     pub colour: Option<ColourTable>,
 }

@@ -31,4 +31,6 @@ pub(crate) struct LoopContext<'a, 'j> {
     pub(crate) mode: Mode,
     /// True if the columns of the loops are needed.
     pub(crate) shows: bool,
+    /// True if FOR loops go from their first value to their last one at once.
+    pub(crate) ends_only: bool,
 }

@@ -65,9 +65,10 @@ impl ForState {
     ) -> Result<bool, Fault> {
         let before = self.value;
         let by = context.values.number(plan.by, &plan.statement.by)?;
-        self.value += by;
         let from = context.values.number(plan.from, &plan.statement.from)?;
         let to = context.values.number(plan.to, &plan.statement.to)?;
+        let intervals = if context.ends_only { ((to - from) / by + 1e-6).floor() } else { 1.0 };
+        self.value += if intervals > 1.0 { by * intervals } else { by };
         self.fraction = (self.value - from) / (to - from);
         let inside = if EngineDeviation::LostNegativeEnd.applies_in(context.mode) {
             // The factors are NIST's; a negative end moves the wrong way.

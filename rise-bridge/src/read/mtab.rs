@@ -46,6 +46,7 @@ pub(super) fn describe(text: &TextTable<'_>) -> Result<ColourTable, ReadError> {
         stokes: stokes(text),
         rows: Vec::new(),
         albedo: text.lines("albedo").map(albedo).collect::<Result<_, _>>()?,
+        warnings: Vec::new(),
     })
 }
 

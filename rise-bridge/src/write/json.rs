@@ -1,6 +1,9 @@
 //! The colour table as JSON, with the keys of the text header and numbers that read back exactly.
 
-use mist_engine::colour::{ColourRow, ColourTable, RowOrder, TableAxis};
+use mist_engine::{
+    Warning,
+    colour::{ColourRow, ColourTable, RowOrder, TableAxis},
+};
 use serde::{Serialize, Serializer, ser::SerializeSeq};
 
 use super::{
@@ -34,6 +37,8 @@ struct JsonTable<'a> {
     patch: String,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     albedo: Vec<[f64; 5]>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    warnings: &'a [Warning],
     columns: Vec<String>,
     rows: JsonRows<'a>,
     end: usize,
@@ -121,6 +126,7 @@ fn document(table: &ColourTable, columns: Vec<String>, xyz: bool) -> JsonTable<'
                 [a.thetai, r, g, b, a.intensity]
             })
             .collect(),
+        warnings: &table.warnings,
         columns,
         rows: JsonRows { table, xyz },
         end: table.rows.len(),

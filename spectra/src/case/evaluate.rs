@@ -30,12 +30,14 @@ pub fn evaluate(request: &Value) -> Result<ColourResponse, CaseError> {
     let illuminants = light::read_illuminants(whole)?;
     let one = std::slice::from_ref(request);
     let cases = whole.list("cases")?.unwrap_or(one);
-    let results = cases.iter().enumerate().map(|(index, value)| {
+    let (mut results, mut warnings) = (Vec::with_capacity(cases.len()), Vec::new());
+    for (index, value) in cases.iter().enumerate() {
         let id = case_id(index, value);
         let case = ColourCase::read(CaseFields::new(&id, "", value)?, &illuminants)?;
-        case.evaluate(&id)
-    });
-    Ok(ColourResponse { results: results.collect::<Result<_, _>>()? })
+        results.push(case.evaluate(&id)?);
+        warnings.extend(case.warnings(&id));
+    }
+    Ok(ColourResponse { results, warnings })
 }
 
 fn case_id(index: usize, case: &Value) -> String {

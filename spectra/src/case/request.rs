@@ -53,6 +53,8 @@ pub(super) struct ColourCase {
     pub(super) exposure: f64,
     pub(super) filters: Vec<Filter>,
     pub(super) rgb: Vec<(RgbSpace, Adaptation)>,
+    /// True if the request has a `value_factor`.
+    pub(super) is_scaled: bool,
 }
 
 const KNOWN: [&str; 20] = [
@@ -106,6 +108,7 @@ impl ColourCase {
             exposure: fields.number("rgb_exposure")?.unwrap_or(1.0),
             filters: read_filters(fields)?,
             rgb: read_rgb(fields, illuminant.is_some())?,
+            is_scaled: fields.get("value_factor").is_some(),
             spectra,
             illuminant,
             method,

@@ -2,11 +2,16 @@
 
 use serde::Serialize;
 
+use super::warnings::CaseWarning;
+
 /// The answer to a request.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ColourResponse {
     /// One per case, in order.
     pub results: Vec<CaseResult>,
+    /// Warnings of the cases, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<CaseWarning>,
 }
 
 /// The colour of one case.
