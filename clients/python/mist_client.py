@@ -162,7 +162,7 @@ class Service:
     def integrate(self, name, rows, **query):
         """A table of solid angles: rows `thetai thetas phis circle 2`, degrees."""
         path = f"/v1/materials/{urllib.parse.quote(name)}/integrate{_query(query)}"
-        return Table.parse(self._ask("POST", path, "\n".join(rows).encode(), "text/plain")[0].decode())
+        return Table.parse(self._ask("POST", path, "\n".join(rows).encode(), "application/x-mist")[0].decode())
 
     def evaluate(self, name, directions, **query):
         """Rows of [wi.x, wi.y, wi.z, wo.x, wo.y, wo.z] in, rows of 32-bit numbers out."""

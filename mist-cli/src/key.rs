@@ -19,7 +19,8 @@ Examples:
 pub(super) struct KeyArgs {
     /// Name of the client that has the key.
     name: String,
-    /// Permissions: read looks at what is there, run changes and computes.
+    /// Permissions: read looks at what is there and computes within small limits, run computes
+    /// and changes what it has stored, admin changes what others have stored.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "read,run")]
     scopes: Vec<Scopes>,
     /// Take the key from standard input.
@@ -31,6 +32,7 @@ pub(super) struct KeyArgs {
 enum Scopes {
     Read,
     Run,
+    Admin,
 }
 
 /// Prints the line.
@@ -56,6 +58,7 @@ pub(super) fn key(args: &KeyArgs) -> Result<(), CommandError> {
         .map(|scope| match scope {
             Scopes::Read => "read",
             Scopes::Run => "run",
+            Scopes::Admin => "admin",
         })
         .collect();
     print(&(keys::line(&args.name, &scopes.join(","), &key) + "\n"))

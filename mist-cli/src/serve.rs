@@ -2,7 +2,7 @@
 
 use std::{io::IsTerminal, net::SocketAddr, path::PathBuf};
 
-use mist_server::{ServeLimits, ServeOptions, http};
+use mist_server::{AccessOptions, ServeLimits, ServeOptions, http};
 
 use super::{
     error::CommandError,
@@ -15,13 +15,15 @@ use super::{
 ///
 /// PUT /v1/materials/NAME keeps a material, GET /v1/materials/NAME/table.mtab?… answers with its
 /// colour table, POST /v1/jobs runs a program; /openapi.json describes everything. There is no
-/// encryption: put a proxy in front for anything but this machine.
+/// encryption: put a proxy in front for anything but this machine. Web pages of other origins are
+/// refused unless --cors names them.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
   mist serve
   mist serve --listen 127.0.0.1:9000 --data /var/lib/mist --keys /etc/mist/keys
-  curl -X PUT --data-binary @paint.json http://127.0.0.1:8650/v1/materials/paint
+  curl -X PUT -H 'Content-Type: application/json' --data-binary @paint.json \
+    http://127.0.0.1:8650/v1/materials/paint
   curl 'http://127.0.0.1:8650/v1/materials/paint/table.mtab?thetai=0:15:75&thetas=0:15:75&phis=0:30:180&lambda=400:20:700'")]
 pub(super) struct ServeArgs {
     /// Address and port.
@@ -30,7 +32,7 @@ pub(super) struct ServeArgs {
     /// Folder in which materials and jobs outlive the service [default: memory].
     #[arg(long, value_name = "DIR")]
     data: Option<PathBuf>,
-    /// File of keys, lines of `mist key`; without it everybody may do everything.
+    /// File of keys, lines of `mist key`; without it every client may do everything.
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
     /// Form of the log on standard error.
@@ -42,6 +44,8 @@ pub(super) struct ServeArgs {
     /// Print the OpenAPI document and end.
     #[arg(long)]
     openapi: bool,
+    #[command(flatten)]
+    access: AccessOptions,
     #[command(flatten)]
     limits: ServeLimits,
 }
@@ -57,6 +61,7 @@ pub(super) fn serve(args: &ServeArgs) -> Result<(), CommandError> {
         listen: args.listen,
         data: args.data.clone(),
         keys: keys.map(|source| source.text),
+        access: args.access.clone(),
         limits: args.limits.clone(),
     };
     mist_server::serve(&options, |address| {

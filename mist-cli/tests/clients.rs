@@ -97,7 +97,8 @@ fn the_header_for_cpp_reads_tables_as_they_are_and_refuses_cut_ones() {
     let table = dir.path().join("glass.mtab");
     let query = "thetai=0:15:75&thetas=0:15:75&phis=0:30:180&lambda=400:50:700&stokes=1";
     let mut put = Command::new("curl");
-    put.args(["-sSf", "-X", "PUT", "-d", material, &glass]);
+    let json = "Content-Type: application/json";
+    put.args(["-sSf", "-X", "PUT", "-H", json, "-d", material, &glass]);
     let mut get = Command::new("curl");
     get.args(["-sSf", &format!("{glass}/table.mtab?{query}"), "-o"]).arg(&table);
     for command in [&mut put, &mut get] {

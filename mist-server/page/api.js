@@ -90,7 +90,7 @@ export async function follow(id, told) {
 /** Colours of a material at text rows `thetai thetas phis point`: the table as JSON. */
 export function integrate(material, rows, query, signal) {
   const path = (name) => `v1/materials/${name}/integrate?${new URLSearchParams(query)}`;
-  const headers = { "Content-Type": "text/plain", Accept: "application/json" };
+  const headers = { "Content-Type": "application/x-mist", Accept: "application/json" };
   const request = { method: "POST", headers, body: rows, signal };
   return withMaterial(material, async (name) => (await ask(path(name), request)).json());
 }

@@ -1,6 +1,7 @@
 //! The service over HTTP: the only modules that know statuses, headers and axum.
 
 mod cancel;
+mod client;
 mod color;
 mod error;
 mod evaluate;
@@ -16,6 +17,7 @@ mod listen;
 mod materials;
 mod metrics;
 mod models;
+mod origin;
 mod page;
 mod prepared_lobes;
 mod problem;

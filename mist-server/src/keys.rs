@@ -1,7 +1,8 @@
 //! Keys of the service: random, shown once, kept as digests.
 //!
-//! A line of the file of keys is `NAME SCOPES DIGEST`: scopes are `read`, `run` or `read,run`, the
-//! digest is the SHA-256 of the key in hexadecimal. A key has 256 random bits, so nobody finds it
+//! A line of the file of keys is `NAME SCOPES DIGEST`: scopes are some of `read`, `run` and `admin`
+//! with commas between them, of which the highest counts. The digest is the SHA-256 of the key in
+//! hexadecimal. A key has 256 random bits, so nobody finds it
 //! from its digest by trying.
 
 use std::fmt::Write as _;
@@ -14,13 +15,15 @@ const PREFIX: &str = "mist_";
 /// Random bytes of a key.
 const BYTES: usize = 32;
 
-/// Permission of a key.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Permission of a key; each includes those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum KeyScope {
-    /// To look at what is there.
+    /// To look at what is there, and to compute within small limits.
     Read,
-    /// To change and to compute.
+    /// To compute, and to store and change what is its own.
     Run,
+    /// To change what others have stored.
+    Admin,
 }
 
 impl KeyScope {
@@ -29,6 +32,7 @@ impl KeyScope {
         match self {
             Self::Read => "read",
             Self::Run => "run",
+            Self::Admin => "admin",
         }
     }
 }
@@ -37,7 +41,7 @@ impl KeyScope {
 #[derive(Clone, Debug)]
 struct Key {
     name: String,
-    scopes: Vec<KeyScope>,
+    scope: KeyScope,
     digest: [u8; 32],
 }
 
@@ -66,15 +70,15 @@ impl Keys {
         Ok(Self(keys))
     }
 
-    /// The name of the key, and whether it has the scope; none if the key is not known.
+    /// The name and the scope of a key; none if the key is not known.
     ///
     /// All digests are compared whole: the time tells nothing about them.
-    pub(crate) fn check(&self, key: &str, scope: KeyScope) -> Option<(&str, bool)> {
+    pub(crate) fn find(&self, key: &str) -> Option<(&str, KeyScope)> {
         let digest: [u8; 32] = Sha256::digest(key).into();
         let mut found = None;
         for known in &self.0 {
             if bool::from(known.digest.ct_eq(&digest)) {
-                found = Some((known.name.as_str(), known.scopes.contains(&scope)));
+                found = Some((known.name.as_str(), known.scope));
             }
         }
         found
@@ -88,11 +92,13 @@ fn key(line: &str) -> Result<Key, String> {
     let scope = |text: &str| match text {
         "read" => Ok(KeyScope::Read),
         "run" => Ok(KeyScope::Run),
-        _ => Err(format!("scope {text:?} is none of read and run")),
+        "admin" => Ok(KeyScope::Admin),
+        _ => Err(format!("scope {text:?} is none of read, run and admin")),
     };
     let scopes: Result<Vec<KeyScope>, String> = scopes.split(',').map(scope).collect();
+    let scope = scopes?.into_iter().max().ok_or("a scope is missing")?;
     let digest = bytes(digest).ok_or("the digest is not 64 hexadecimal digits")?;
-    Ok(Key { name: name.to_owned(), scopes: scopes?, digest })
+    Ok(Key { name: name.to_owned(), scope, digest })
 }
 
 fn bytes(hexadecimal: &str) -> Option<[u8; 32]> {
@@ -132,14 +138,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_key_is_known_by_its_digest_and_has_its_scopes() {
+    fn a_key_is_known_by_its_digest_and_has_its_highest_scope() {
         let key = random().unwrap();
         let file = format!("# keys\n{}\n", line("farm", "read", &key));
         assert!(!file.contains(&key));
         let keys = Keys::parse(&file).unwrap();
-        assert_eq!(keys.check(&key, KeyScope::Read), Some(("farm", true)));
-        assert_eq!(keys.check(&key, KeyScope::Run), Some(("farm", false)));
-        assert_eq!(keys.check("mist_other", KeyScope::Read), None);
+        assert_eq!(keys.find(&key), Some(("farm", KeyScope::Read)));
+        assert_eq!(keys.find("mist_other"), None);
+        let both = Keys::parse(&line("farm", "run,read", &key)).unwrap();
+        assert_eq!(both.find(&key), Some(("farm", KeyScope::Run)));
     }
 
     #[test]

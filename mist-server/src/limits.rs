@@ -39,6 +39,12 @@ pub struct ServeLimits {
     /// Seconds that one answer may be computed.
     #[arg(long, default_value_t = 300.0, value_name = "SECONDS")]
     pub max_time: f64,
+    /// Seconds that one answer may be computed for a key with the scope `read`.
+    #[arg(long, default_value_t = 10.0, value_name = "SECONDS")]
+    pub max_read_time: f64,
+    /// Evaluations of the model for one answer to a key with the scope `read`.
+    #[arg(long, default_value_t = 1e7, value_name = "N")]
+    pub max_read_evaluations: f64,
     /// Seconds that a job may run.
     #[arg(long, default_value_t = 86_400.0, value_name = "SECONDS")]
     pub max_job_time: f64,
@@ -98,6 +104,15 @@ impl ServeLimits {
             directions: self.max_directions,
             steps: self.max_steps,
             time: Some(duration(seconds)),
+        }
+    }
+
+    /// The bounds of a client that may only look.
+    pub(crate) fn of_reader(&self) -> Self {
+        Self {
+            max_evaluations: self.max_evaluations.min(self.max_read_evaluations),
+            max_time: self.max_time.min(self.max_read_time),
+            ..self.clone()
         }
     }
 

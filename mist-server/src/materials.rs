@@ -20,6 +20,10 @@ use crate::{
 pub(crate) struct StoredMaterial {
     /// The body of the request that brought it.
     pub(crate) text: String,
+    /// True for JSON, false for the text of a program.
+    pub(crate) is_json: bool,
+    /// The client that stored it, as far as it is known.
+    pub(crate) owner: Option<String>,
     /// `sha256-…` of that body.
     pub(crate) hash: String,
     /// The material.
@@ -61,19 +65,28 @@ impl MaterialsError {
 }
 
 impl StoredMaterial {
-    /// The material that `text` describes: material JSON, a program with files, or the bare text
-    /// of a program that needs none.
-    pub(crate) fn new(text: String, limits: &ServeLimits) -> Result<Self, MaterialsError> {
-        let prepared = prepare(&text, limits)?;
+    /// The material that `text` describes: material JSON, a program with files as JSON, or the
+    /// bare text of a program that needs none.
+    pub(crate) fn new(
+        text: String,
+        is_json: bool,
+        owner: Option<String>,
+        limits: &ServeLimits,
+    ) -> Result<Self, MaterialsError> {
+        let prepared = prepare(&text, is_json, limits)?;
         // Errors of values show when the model is built: now rather than at every table.
         prepared.model()?;
         let hash = format!("sha256-{:x}", Sha256::digest(text.as_bytes()));
-        Ok(Self { text, hash, prepared })
+        Ok(Self { text, is_json, owner, hash, prepared })
     }
 }
 
-fn prepare(text: &str, limits: &ServeLimits) -> Result<PreparedMaterial, MaterialsError> {
-    if !text.trim_start().starts_with('{') {
+fn prepare(
+    text: &str,
+    is_json: bool,
+    limits: &ServeLimits,
+) -> Result<PreparedMaterial, MaterialsError> {
+    if !is_json {
         return first_step(&ProgramRequest::bare(text.to_owned()), limits);
     }
     let json: Value = serde_json::from_str(text).map_err(MaterialError::Json)?;

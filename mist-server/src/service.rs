@@ -3,7 +3,7 @@
 use std::{io, net::SocketAddr, path::PathBuf};
 
 use crate::{
-    ServeLimits,
+    AccessOptions, ServeLimits,
     http::{self, App, StartError},
 };
 
@@ -16,6 +16,8 @@ pub struct ServeOptions {
     pub data: Option<PathBuf>,
     /// Text of a file of keys; everybody may do everything if there is none.
     pub keys: Option<String>,
+    /// Hosts, web pages and addresses that may use the service.
+    pub access: AccessOptions,
     /// Bounds for clients.
     pub limits: ServeLimits,
 }
@@ -26,6 +28,12 @@ pub enum ServeError {
     /// It cannot start.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// Everybody who reaches the address could use the service.
+    #[error(
+        "{0} can be reached from other machines: give --keys FILE (see `mist key`), or --open if \
+         everybody may use the service"
+    )]
+    Exposed(SocketAddr),
     /// The address cannot be used.
     #[error("{address}: {source}")]
     Socket {
@@ -41,11 +49,16 @@ pub enum ServeError {
 ///
 /// # Errors
 ///
-/// If the store or the keys cannot be read, or the address cannot be used.
+/// If the store or the keys cannot be read, or the address cannot be used or is open to everybody.
 pub fn serve(options: &ServeOptions, listening: impl FnOnce(SocketAddr)) -> Result<(), ServeError> {
-    let ServeOptions { listen, data, keys, limits } = options;
+    let ServeOptions { listen, data, keys, access, limits } = options;
+    if access.is_exposed(listen, keys.is_some()) {
+        return Err(ServeError::Exposed(*listen));
+    }
+    let mut access = access.clone();
+    access.hosts.push(listen.ip().to_string());
     let failed = |source: io::Error| ServeError::Socket { address: *listen, source };
-    let app = App::new(limits.clone(), data.as_deref(), keys.as_deref())?;
+    let app = App::new(limits.clone(), data.as_deref(), keys.as_deref())?.with_access(access);
     let runtime = tokio::runtime::Runtime::new().map_err(failed)?;
     let served = runtime.block_on(async {
         let listener = tokio::net::TcpListener::bind(listen).await.map_err(failed)?;

@@ -4,6 +4,7 @@
 //! was there after it.
 
 use std::{
+    collections::BTreeMap,
     fmt, io,
     path::{Path, PathBuf},
     sync::{Arc, PoisonError, RwLock},
@@ -19,6 +20,8 @@ const FILE: &str = "mist.redb";
 
 /// Bodies of materials by name.
 const MATERIALS: TableDefinition<'_, &str, &str> = TableDefinition::new("materials");
+/// Clients that stored materials, by name of the material.
+const OWNERS: TableDefinition<'_, &str, &str> = TableDefinition::new("owners");
 /// Records of jobs, JSON, by id.
 const JOBS: TableDefinition<'_, &str, &str> = TableDefinition::new("jobs");
 /// Programs of jobs with their files, JSON, by id.
@@ -112,8 +115,8 @@ impl Store {
         match folder {
             None => Self::on(|| Database::builder().create_with_backend(InMemoryBackend::new())),
             Some(folder) => {
-                std::fs::create_dir_all(folder).map_err(StorageError::Io)?;
                 let path = folder.join(FILE);
+                make_private(folder, &path).map_err(StorageError::Io)?;
                 let file = path.clone();
                 Self::on(move || Database::create(&file)).map_err(|error| error.of_opening(&path))
             }
@@ -127,6 +130,7 @@ impl Store {
         // Reading needs the tables to be there.
         store.write(|change| {
             change.open_table(MATERIALS)?;
+            change.open_table(OWNERS)?;
             change.open_table(JOBS)?;
             change.open_table(PROGRAMS)?;
             change.open_table(STEPS)?;
@@ -136,15 +140,28 @@ impl Store {
         Ok(store)
     }
 
-    /// Every material: name and body.
-    pub(crate) fn materials(&self) -> Result<Vec<(String, String)>, StoreError> {
-        self.pairs(MATERIALS)
+    /// Every material: name, body, and the client that stored it if that is known.
+    pub(crate) fn materials(&self) -> Result<Vec<(String, String, Option<String>)>, StoreError> {
+        let owners: BTreeMap<String, String> = self.pairs(OWNERS)?.into_iter().collect();
+        let all = self.pairs(MATERIALS)?.into_iter();
+        Ok(all
+            .map(|(name, body)| {
+                let owner = owners.get(&name).cloned();
+                (name, body, owner)
+            })
+            .collect())
     }
 
-    /// Stores the body of a material.
-    pub(crate) fn put_material(&self, name: &str, body: &str) -> Result<(), StoreError> {
+    /// Stores the body of a material that `owner` has sent.
+    pub(crate) fn put_material(
+        &self,
+        name: &str,
+        body: &str,
+        owner: &str,
+    ) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(MATERIALS)?.insert(name, body)?;
+            change.open_table(OWNERS)?.insert(name, owner)?;
             Ok(())
         })
     }
@@ -153,6 +170,7 @@ impl Store {
     pub(crate) fn remove_material(&self, name: &str) -> Result<(), StoreError> {
         self.write(|change| {
             change.open_table(MATERIALS)?.remove(name)?;
+            change.open_table(OWNERS)?.remove(name)?;
             Ok(())
         })
     }
@@ -299,6 +317,30 @@ impl Store {
     }
 }
 
+/// Makes the folder and the file if they are not there, for nobody but their owner.
+fn make_private(folder: &Path, file: &Path) -> io::Result<()> {
+    let mut maker = std::fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut maker, 0o700);
+    maker.recursive(true).create(folder)?;
+    let mut opener = std::fs::OpenOptions::new();
+    opener.append(true).create(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut opener, 0o600);
+    let opened = opener.open(file)?;
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        opened.set_permissions(PermissionsExt::from_mode(0o600))?;
+        if std::fs::metadata(folder)?.permissions().mode() & 0o077 != 0 {
+            let folder = folder.display().to_string();
+            tracing::warn!(folder, "other users can list the folder of the service: chmod 700");
+        }
+    }
+    drop(opened);
+    Ok(())
+}
+
 fn remove_steps(change: &WriteTransaction, id: &str) -> Result<(), StoreError> {
     let mut steps = change.open_table(STEPS)?;
     steps.retain_in((id, 0)..=(id, u64::MAX), |_, _| false)?;
@@ -306,90 +348,4 @@ fn remove_steps(change: &WriteTransaction, id: &str) -> Result<(), StoreError> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::atomic::{AtomicU64, Ordering};
-
-    use redb::StorageBackend;
-
-    use super::*;
-
-    /// A disk with so many bytes, which stay there when the database is closed.
-    #[derive(Clone, Debug)]
-    struct Disk {
-        bytes: Arc<RwLock<Vec<u8>>>,
-        most: Arc<AtomicU64>,
-    }
-
-    impl StorageBackend for Disk {
-        fn len(&self) -> io::Result<u64> {
-            Ok(self.bytes.read().unwrap().len() as u64)
-        }
-
-        fn read(&self, offset: u64, out: &mut [u8]) -> io::Result<()> {
-            let start = offset as usize;
-            out.copy_from_slice(&self.bytes.read().unwrap()[start..start + out.len()]);
-            Ok(())
-        }
-
-        fn set_len(&self, len: u64) -> io::Result<()> {
-            if len > self.most.load(Ordering::Relaxed) {
-                return Err(io::ErrorKind::StorageFull.into());
-            }
-            self.bytes.write().unwrap().resize(len as usize, 0);
-            Ok(())
-        }
-
-        fn sync_data(&self) -> io::Result<()> {
-            Ok(())
-        }
-
-        fn write(&self, offset: u64, data: &[u8]) -> io::Result<()> {
-            let start = offset as usize;
-            self.bytes.write().unwrap()[start..start + data.len()].copy_from_slice(data);
-            Ok(())
-        }
-    }
-
-    #[test]
-    fn a_full_disk_is_told_and_everything_before_it_is_still_there() {
-        let disk = Disk { bytes: Arc::default(), most: Arc::new(AtomicU64::new(8 << 20)) };
-        let backend = disk.clone();
-        let store =
-            Store::on(move || Database::builder().create_with_backend(backend.clone())).unwrap();
-        store.put_material("small", "body").unwrap();
-        let large = "x".repeat(16 << 20);
-        assert!(store.put_material("large", &large).is_err());
-        assert_eq!(store.materials().unwrap(), [("small".to_owned(), "body".to_owned())]);
-        disk.most.store(1 << 30, Ordering::Relaxed);
-        store.put_material("large", &large).unwrap();
-        assert_eq!(store.materials().unwrap().len(), 2);
-    }
-
-    #[test]
-    fn a_file_that_is_no_store_is_refused_with_its_name_and_a_remedy() {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join(FILE), "x".repeat(10_000)).unwrap();
-        let error = Store::new(Some(folder.path())).unwrap_err().to_string();
-        assert!(error.contains(FILE) && error.contains("move it away"), "{error}");
-    }
-
-    #[test]
-    fn a_folder_keeps_what_was_put_into_it() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::new(Some(folder.path())).unwrap();
-        store.put_job("a", "{}", "program").unwrap();
-        store.put_steps("a", 3, &[vec![1], vec![2]]).unwrap();
-        let second = Store::new(Some(folder.path())).unwrap_err().to_string();
-        assert!(second.contains("another service"), "{second}");
-        drop(store);
-        let store = Store::new(Some(folder.path())).unwrap();
-        assert_eq!(store.step("a", 4).unwrap(), Some(vec![2]));
-        assert_eq!(store.program("a").unwrap().as_deref(), Some("program"));
-        store.finish_job("a", "{}", &[("results".into(), "text".into())]).unwrap();
-        assert_eq!(store.step("a", 4).unwrap(), None);
-        assert_eq!(store.text("a", "results").unwrap().as_deref(), Some("text"));
-        store.remove_job("a").unwrap();
-        assert_eq!(store.text("a", "results").unwrap(), None);
-        assert!(store.jobs().unwrap().is_empty());
-    }
-}
+mod tests;

@@ -19,8 +19,10 @@ fn a_key_that_mist_key_made_opens_the_service() {
     assert!(!fs::read_to_string(&file).unwrap().contains(key.trim()));
     let service = Service::start(data.path(), &["--keys", file.to_str().unwrap()]);
     assert_eq!(service.ask("GET", "/v1/materials", "").0, 401);
-    let with_key =
-        format!("GET /v1/materials HTTP/1.0\r\nAuthorization: Bearer {}\r\n\r\n", key.trim());
+    let with_key = format!(
+        "GET /v1/materials HTTP/1.0\r\nHost: localhost\r\nAuthorization: Bearer {}\r\n\r\n",
+        key.trim()
+    );
     let mut stream = TcpStream::connect(&service.address).unwrap();
     stream.write_all(with_key.as_bytes()).unwrap();
     let mut answer = String::new();

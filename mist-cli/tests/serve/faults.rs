@@ -22,7 +22,7 @@ fn a_client_that_is_slow_or_gone_does_not_stop_the_others() {
     }
     for _ in 0..20 {
         let mut gone = service.connect();
-        gone.write_all(b"POST /v1/run HTTP/1.1\r\nHost: a\r\nContent-Length: 1000\r\n\r\nMODEL")
+        gone.write_all(b"POST /v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/x-mist\r\nContent-Length: 1000\r\n\r\nMODEL")
             .unwrap();
     }
     assert_eq!(service.ask("GET", "/healthz", ""), (200, "ok\n".into()));
@@ -54,7 +54,7 @@ fn a_client_that_does_not_read_its_answer_loses_its_place() {
     let mut deaf = service.connect();
     // More answers than the buffers of the system hold.
     for _ in 0..8 {
-        let get = format!("GET {LARGE} HTTP/1.1\r\nHost: mist\r\n\r\n");
+        let get = format!("GET {LARGE} HTTP/1.1\r\nHost: localhost\r\n\r\n");
         deaf.write_all(get.as_bytes()).unwrap();
     }
     // There is one place, and this waits for it.
@@ -75,7 +75,7 @@ fn what_a_client_that_is_gone_had_asked_for_is_not_computed_on() {
         &format!("/v1/jobs/{id}/events"),
     ] {
         let mut gone = service.connect();
-        let get = format!("GET {path} HTTP/1.1\r\nHost: mist\r\n\r\n");
+        let get = format!("GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n");
         gone.write_all(get.as_bytes()).unwrap();
         std::thread::sleep(Duration::from_millis(200));
     }
@@ -128,7 +128,7 @@ fn ten_thousand_jobs_are_each_accepted_or_put_off() {
     let service = Service::start(data.path(), &[]);
     let body = json!({ "program": LONG }).to_string();
     let request = format!(
-        "POST /v1/jobs HTTP/1.1\r\nHost: mist\r\nContent-Type: application/json\r\n\
+        "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n\
          Content-Length: {}\r\n\r\n{body}",
         body.len()
     );

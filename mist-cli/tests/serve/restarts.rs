@@ -64,7 +64,7 @@ fn a_service_that_stops_ends_the_events_of_a_job_that_runs() {
     let id = service.submit(&LONG.replace("(0.35*rad)^2", "(0.1*rad)^2"));
     service.wait(&id, |status| status["state"] == "running");
     let mut stream = service.connect();
-    write!(stream, "GET /v1/jobs/{id}/events HTTP/1.1\r\nHost: mist\r\n\r\n").unwrap();
+    write!(stream, "GET /v1/jobs/{id}/events HTTP/1.1\r\nHost: localhost\r\n\r\n").unwrap();
     let mut begin = [0; 16];
     stream.read_exact(&mut begin).unwrap();
     stop(&mut service);

@@ -54,7 +54,7 @@ impl Service {
         let mut stream = self.connect();
         // HTTP/1.0: the connection ends with the answer.
         let head = format!(
-            "{method} {path} HTTP/1.0\r\nHost: mist\r\nContent-Type: application/json\r\n\
+            "{method} {path} HTTP/1.0\r\nHost: localhost\r\nContent-Type: application/json\r\n\
              Content-Length: {}\r\n\r\n",
             body.len()
         );

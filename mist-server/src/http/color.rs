@@ -4,8 +4,9 @@ use axum::{Json, extract::State};
 use serde_json::Value;
 
 use super::{
+    client::Client,
     error::ApiError,
-    extract::BodyText,
+    extract::JsonText,
     problem::{Problem, Problems},
     state::App,
 };
@@ -21,7 +22,8 @@ use super::{
 )]
 pub(super) async fn color(
     State(app): State<App>,
-    BodyText(body): BodyText,
+    client: Client,
+    JsonText(body): JsonText,
 ) -> Result<Json<Value>, ApiError> {
     let work = move || -> Result<Value, ApiError> {
         let request = serde_json::from_str(&body)
@@ -32,5 +34,5 @@ pub(super) async fn color(
         })?;
         serde_json::to_value(response).map_err(|error| ApiError::Failed(error.to_string()))
     };
-    app.compute_in_time(work).await?.map(Json)
+    app.compute_in_time(&client, work).await?.map(Json)
 }

@@ -7,7 +7,7 @@ use axum::{
 };
 use mist_engine::{material::MaterialError, request::RequestError};
 
-use super::problem::Problem;
+use super::{extract::MIST, problem::Problem};
 use crate::{
     compute::ComputeError, failure::FailureReport, jobs::JobsError, limits::LimitReached,
     materials::MaterialsError, memory::MemoryError, program::ProgramError, store::StoreError,
@@ -34,7 +34,12 @@ pub(crate) enum ApiError {
     /// The address has no such method.
     Method,
     /// The body is of a kind that is not read here.
-    MediaType(String),
+    MediaType {
+        /// The kind that was sent.
+        message: String,
+        /// The kinds that are read.
+        expected: String,
+    },
     /// It is not in a state for that.
     Conflict(String),
     /// A limit: the flag, its value, what broke it.
@@ -171,8 +176,14 @@ impl ApiError {
                 let message = "this address has no such method";
                 Problem::new(StatusCode::METHOD_NOT_ALLOWED, "method", message)
             }
-            Self::MediaType(message) => {
-                Problem::new(StatusCode::UNSUPPORTED_MEDIA_TYPE, "content-type", message)
+            Self::MediaType { message, expected } => {
+                let status = StatusCode::UNSUPPORTED_MEDIA_TYPE;
+                let mut problem = Problem::new(status, "content-type", message);
+                let files = "; a program with its data files is JSON {\"program\": TEXT, \
+                             \"files\": {NAME: TEXT}}";
+                let files = if expected.contains(MIST) { files } else { "" };
+                problem.help = Some(format!("send the header `Content-Type: {expected}`{files}"));
+                problem
             }
             Self::Conflict(message) => Problem::new(StatusCode::CONFLICT, "state", message),
             Self::TooLarge(limit) => limited(StatusCode::PAYLOAD_TOO_LARGE, "too-large", limit),

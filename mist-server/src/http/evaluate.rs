@@ -18,15 +18,19 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::{
+    client::Client,
     error::ApiError,
-    extract::{BodyBytes, BodyText, PathParameters, Query},
+    extract::{JsonText, PathParameters, Query, VectorBytes},
     prepared_lobes::PreparedLobes,
     problem::Problems,
     query::MaterialQuery,
     schema,
     state::App,
 };
-use crate::{limits::LimitReached, materials::StoredMaterial};
+use crate::{
+    limits::{LimitReached, ServeLimits},
+    materials::StoredMaterial,
+};
 
 /// Bytes of a pair of vectors: six f32.
 const PAIR: usize = 24;
@@ -54,11 +58,12 @@ pub(super) struct EvaluationOptions {
 pub(super) async fn angles(
     State(app): State<App>,
     Query(options): Query<EvaluationOptions>,
-    BodyText(body): BodyText,
+    client: Client,
+    JsonText(body): JsonText,
 ) -> Result<Response, ApiError> {
     let mode = if options.compat { Mode::Compat } else { Mode::Sound };
     let work = move || eval::eval(&body, mode, None);
-    let response = app.compute_in_time(work).await??;
+    let response = app.compute_in_time(&client, work).await??;
     Ok(Json(response).into_response())
 }
 
@@ -79,21 +84,22 @@ pub(super) async fn angles(
 pub(super) async fn vectors(
     State(app): State<App>,
     PathParameters(name): PathParameters<String>,
+    client: Client,
     uri: Uri,
-    BodyBytes(body): BodyBytes,
+    VectorBytes(body): VectorBytes,
 ) -> Result<Response, ApiError> {
     let pairs = pairs(&body)?;
     let kept = app.materials.find(&name)?;
-    let prepared = prepared(&app, kept, &uri).await?;
+    let prepared = prepared(&app, &client, kept, &uri).await?;
     let PreparedLobes { lobes, out } = &*prepared;
     let out = *out;
-    admit(&app, lobes, pairs.len(), out)?;
+    admit(&client.limits, lobes, pairs.len(), out)?;
     let evaluations = pairs.len() * lobes.wavelengths();
     app.metrics.count_evaluations(evaluations);
     let answer = if evaluations <= AT_ONCE {
         lobes.evaluate(&pairs, out)
     } else {
-        app.compute_in_time(move || in_parallel(&prepared.lobes, &pairs, out)).await?
+        app.compute_in_time(&client, move || in_parallel(&prepared.lobes, &pairs, out)).await?
     };
     let mut bytes = Vec::with_capacity(4 * answer.len());
     for x in &answer {
@@ -124,6 +130,7 @@ fn pairs(body: &[u8]) -> Result<Vec<(DVec3, DVec3)>, ApiError> {
 /// The lobes that the query asks for, from the cache or new.
 async fn prepared(
     app: &App,
+    client: &Client,
     kept: Arc<StoredMaterial>,
     uri: &Uri,
 ) -> Result<Arc<PreparedLobes>, ApiError> {
@@ -134,15 +141,19 @@ async fn prepared(
     }
     let query = MaterialQuery::of(uri)?;
     let out = LobeOutput::parse(query.out().unwrap_or("rgb"))?;
-    let view = query.view(&app.limits)?;
-    let made = app.compute_in_time(move || Lobes::new(&kept.prepared, &view)).await??;
+    let view = query.view(&client.limits)?;
+    let made = app.compute_in_time(client, move || Lobes::new(&kept.prepared, &view)).await??;
     made.check(out)?;
     Ok(app.lobes.insert(key, PreparedLobes { lobes: made, out }))
 }
 
-fn admit(app: &App, lobes: &Lobes, pairs: usize, out: LobeOutput) -> Result<(), ApiError> {
+fn admit(
+    limits: &ServeLimits,
+    lobes: &Lobes,
+    pairs: usize,
+    out: LobeOutput,
+) -> Result<(), ApiError> {
     let (evaluations, numbers) = (pairs * lobes.wavelengths(), pairs * lobes.width(out));
-    let limits = &app.limits;
     for (count, what, flag, value) in [
         (evaluations, "evaluations", "max-evaluations", limits.max_evaluations),
         (numbers, "numbers", "max-numbers", limits.max_numbers),

@@ -12,7 +12,9 @@ use rise_bridge::{
 };
 use serde::Deserialize;
 
-use super::{error::ApiError, extract::Query, file_response::FileRequest, state::App};
+use super::{
+    client::Client, error::ApiError, extract::Query, file_response::FileRequest, state::App,
+};
 
 /// Largest answer, bytes: it is made in memory.
 const MOST_BYTES: usize = 256 << 20;
@@ -74,6 +76,7 @@ impl ExportQuery {
 /// The table of the material called `name` in `format`.
 pub(super) async fn answer(
     app: &App,
+    client: &Client,
     name: String,
     (format, writer): (&'static FileFormat, MaterialWriter),
     (headers, uri): (&HeaderMap, &Uri),
@@ -92,7 +95,7 @@ pub(super) async fn answer(
         writer.write(&kept.prepared, &request, &mut bytes, control).map_err(refused)?;
         Ok(Bytes::from(bytes))
     };
-    file.answer(app, MOST_BYTES as f64, work).await
+    file.answer(app, client, MOST_BYTES as f64, work).await
 }
 
 fn refused(error: ExportError) -> ApiError {

@@ -3,7 +3,7 @@
 use axum::{
     body::Bytes,
     extract::{FromRequest, FromRequestParts, Request},
-    http::{StatusCode, Uri, request::Parts},
+    http::{HeaderMap, StatusCode, Uri, header, request::Parts},
 };
 use mist_runner::files::decode;
 use serde::de::DeserializeOwned;
@@ -42,8 +42,70 @@ impl<T: DeserializeOwned> Query<T> {
     }
 }
 
+/// Media type of JSON.
+const JSON: &str = "application/json";
+/// Media type of the text of a program, and of rows of patches.
+pub(super) const MIST: &str = "application/x-mist";
+/// Media type of the vectors of a renderer.
+const VECTORS: &str = "application/octet-stream";
+
+/// Refuses a body of another media type than `expected`: a form of a foreign page can send
+/// `text/plain`, `multipart/form-data` and `application/x-www-form-urlencoded`, and nothing else.
+fn expect(headers: &HeaderMap, expected: &[&str]) -> Result<String, ApiError> {
+    let given = headers.get(header::CONTENT_TYPE).and_then(|kind| kind.to_str().ok()).unwrap_or("");
+    let kind = given.split(';').next().unwrap_or("").trim().to_ascii_lowercase();
+    if expected.contains(&kind.as_str()) {
+        return Ok(kind);
+    }
+    let what = if kind.is_empty() { "there is no Content-Type" } else { given };
+    Err(ApiError::MediaType { message: what.to_owned(), expected: expected.join(" or ") })
+}
+
+/// The vectors of a renderer.
+pub(super) struct VectorBytes(pub(super) Bytes);
+
+impl FromRequest<App> for VectorBytes {
+    type Rejection = ApiError;
+
+    async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
+        expect(request.headers(), &[VECTORS])?;
+        let BodyBytes(bytes) = BodyBytes::from_request(request, app).await?;
+        Ok(Self(bytes))
+    }
+}
+
+/// JSON as text.
+pub(super) struct JsonText(pub(super) String);
+
+impl FromRequest<App> for JsonText {
+    type Rejection = ApiError;
+
+    async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
+        expect(request.headers(), &[JSON])?;
+        let BodyBytes(bytes) = BodyBytes::from_request(request, app).await?;
+        Ok(Self(decode(bytes.into())))
+    }
+}
+
+/// JSON, or a text in a form of mist: a program, or rows of patches. It is UTF-8, or else
+/// Latin-1, as data files are read.
+pub(super) struct MistText {
+    pub(super) text: String,
+    pub(super) is_json: bool,
+}
+
+impl FromRequest<App> for MistText {
+    type Rejection = ApiError;
+
+    async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
+        let is_json = expect(request.headers(), &[JSON, MIST])? == JSON;
+        let BodyBytes(bytes) = BodyBytes::from_request(request, app).await?;
+        Ok(Self { text: decode(bytes.into()), is_json })
+    }
+}
+
 /// The bytes of the body.
-pub(super) struct BodyBytes(pub(super) Bytes);
+struct BodyBytes(Bytes);
 
 impl FromRequest<App> for BodyBytes {
     type Rejection = ApiError;
@@ -63,18 +125,6 @@ impl FromRequest<App> for BodyBytes {
             }
             Err(error) => Err(ApiError::Body(error.body_text())),
         }
-    }
-}
-
-/// The body as text: UTF-8, or else Latin-1, as data files are read.
-pub(super) struct BodyText(pub(super) String);
-
-impl FromRequest<App> for BodyText {
-    type Rejection = ApiError;
-
-    async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
-        let BodyBytes(bytes) = BodyBytes::from_request(request, app).await?;
-        Ok(Self(decode(bytes.into())))
     }
 }
 

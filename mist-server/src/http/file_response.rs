@@ -12,6 +12,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use super::{
+    client::Client,
     error::ApiError,
     problem::Problem,
     state::{App, FileProducer},
@@ -58,14 +59,17 @@ impl<'a> FileRequest<'a> {
     pub(super) async fn answer(
         self,
         app: &App,
+        client: &Client,
         bytes: f64,
         work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
     ) -> Result<Response, ApiError> {
-        let (mut subscriber, producer) = app.files.join(&self.tag);
+        // What a client may not compute is no failure for another that may.
+        let key = format!("{}{}", client.scope.name(), self.tag);
+        let (mut subscriber, producer) = app.files.join(&key);
         app.metrics.count_table(producer.is_none());
         if let Some(producer) = producer {
             let held = app.memory.reserve(bytes)?;
-            tokio::spawn(compute(app.clone(), producer, held, work));
+            tokio::spawn(compute(app.clone(), client.clone(), producer, held, work));
         }
         match subscriber.wait(self.patience).await {
             Some(Ok(file)) => {
@@ -81,6 +85,7 @@ impl<'a> FileRequest<'a> {
 /// Computes a file for all clients that wait for it.
 async fn compute(
     app: App,
+    client: Client,
     producer: FileProducer,
     held: Reservation,
     work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
@@ -90,13 +95,13 @@ async fn compute(
         let _held = held;
         work(&control)
     };
-    let computed = tokio::time::timeout(app.limits.time(), app.compute.run(work)).await;
+    let computed = tokio::time::timeout(client.limits.time(), app.compute.run(work)).await;
     let result: Result<Bytes, Problem> = match computed {
         Ok(Ok(done)) => done.map_err(ApiError::problem),
         Ok(Err(error)) => Err(ApiError::from(error).problem()),
         Err(_) => {
             producer.cancel.store(true, std::sync::atomic::Ordering::Relaxed);
-            Err(app.too_long().problem())
+            Err(client.too_long().problem())
         }
     };
     let bytes = result.as_ref().map_or(0, Bytes::len);

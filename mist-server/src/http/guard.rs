@@ -1,20 +1,18 @@
-//! The middleware of every request: its number, its key, its line in the log.
+//! The middleware of every request: its origin, its number, its key, its line in the log.
 
 use std::{
-    net::IpAddr,
     sync::atomic::{AtomicU64, Ordering},
     time::Instant,
 };
 
 use axum::{
-    extract::{ConnectInfo, FromRequestParts, MatchedPath, Request, State},
-    http::{HeaderValue, Method, header, request::Parts},
+    extract::{MatchedPath, Request, State},
+    http::{HeaderMap, HeaderName, HeaderValue, header},
     middleware::Next,
     response::{IntoResponse, Response},
 };
 
-use super::{error::ApiError, listen::PeerAddress, state::App};
-use crate::keys::KeyScope;
+use super::{client, error::ApiError, page, state::App};
 use crate::memory::Reservation;
 
 /// The header with the number of a request.
@@ -22,43 +20,50 @@ const REQUEST_ID: &str = "x-request-id";
 /// Characters of a number that a client or a proxy gives.
 const LONGEST_ID: usize = 128;
 
-/// The client: the name of a key, or an address.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Client(pub(super) String);
-
-impl<S: Send + Sync> FromRequestParts<S> for Client {
-    type Rejection = ApiError;
-
-    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, ApiError> {
-        let own = parts.extensions.get::<Self>().cloned();
-        Ok(own.unwrap_or_else(|| Self("unknown".into())))
-    }
-}
-
-/// Addresses that need no key: they tell whether the service is there, and what it can do.
-const OPEN: [&str; 5] = ["/healthz", "/readyz", "/openapi.json", "/docs", "/"];
-
 /// Bodies up to so many bytes are not worth counting.
 const SMALL_BODY: usize = 64 << 10;
 /// Bytes that a byte of a body needs: as it came, as text, and as what is read from it.
 const PER_BYTE: f64 = 3.0;
 
-/// Checks the key, numbers the request, and tells the log how it ended.
+/// Headers of every answer that has none of its own: browsers take it for what it is called, run
+/// nothing in it, and let no other site embed it.
+const CLOSED: [(HeaderName, HeaderValue); 4] = [
+    (header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff")),
+    (
+        header::CONTENT_SECURITY_POLICY,
+        HeaderValue::from_static("default-src 'none'; frame-ancestors 'none'"),
+    ),
+    (header::REFERRER_POLICY, HeaderValue::from_static("no-referrer")),
+    (
+        HeaderName::from_static("cross-origin-resource-policy"),
+        HeaderValue::from_static("same-origin"),
+    ),
+];
+
+/// Checks origin and key, numbers the request, and tells the log how it ended.
 pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Next) -> Response {
     let begun = Instant::now();
     let id = request_id(&request);
     let (method, uri) = (request.method().clone(), request.uri().clone());
     let route = request.extensions().get::<MatchedPath>().cloned();
-    let mut client = String::new();
-    let admitted =
-        admit(&app, &request).and_then(|client| Ok((client, reserve_body(&app, &request)?)));
-    let mut response = match admitted {
-        Ok((found, _held)) => {
-            client.clone_from(&found.0);
-            request.extensions_mut().insert(found);
-            next.run(request).await
+    let address = client::address(&app, &request);
+    let admitted = app.origins.check(&request).and_then(|()| {
+        let client = client::admit(&app, &request, &address)?;
+        Ok((client, reserve_body(&app, &request)?))
+    });
+    let (mut response, client) = match admitted {
+        Ok((client, _held)) => {
+            let name = client.name.clone();
+            request.extensions_mut().insert(client);
+            (next.run(request).await, name)
         }
-        Err(error) => error.into_response(),
+        Err(error) => {
+            if matches!(error, ApiError::Key) {
+                tracing::warn!(address, %method, path = uri.path(), "no key, or a wrong one");
+                tokio::time::sleep(app.failed_keys.count(&address)).await;
+            }
+            (error.into_response(), address)
+        }
     };
     let (status, seconds) = (response.status().as_u16(), begun.elapsed().as_secs_f64());
     tracing::info!(id, %method, path = uri.path(), status, seconds, client, "answered");
@@ -67,7 +72,19 @@ pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Ne
     if let Ok(id) = HeaderValue::from_str(&id) {
         response.headers_mut().insert(REQUEST_ID, id);
     }
+    close(response.headers_mut(), uri.path());
     response
+}
+
+/// Adds the headers of [`CLOSED`].
+fn close(headers: &mut HeaderMap, path: &str) {
+    if path.starts_with("/docs") {
+        let policy = HeaderValue::from_static(page::POLICY);
+        headers.insert(header::CONTENT_SECURITY_POLICY, policy);
+    }
+    for (name, value) in CLOSED {
+        headers.entry(name).or_insert(value);
+    }
 }
 
 /// Memory for the body of a request, until it is answered.
@@ -92,29 +109,5 @@ fn request_id(request: &Request) -> String {
     match given.filter(|id| !id.is_empty() && id.len() <= LONGEST_ID) {
         Some(id) => id.to_owned(),
         None => NEXT.fetch_add(1, Ordering::Relaxed).to_string(),
-    }
-}
-
-/// The client, if it may send the request.
-fn admit(app: &App, request: &Request) -> Result<Client, ApiError> {
-    let peer = request.extensions().get::<ConnectInfo<PeerAddress>>().map(|info| info.0.0);
-    let address = peer.map_or_else(|| "local".to_owned(), |ip: IpAddr| ip.to_string());
-    let Some(keys) = &app.keys else { return Ok(Client(address)) };
-    let path = request.uri().path();
-    if OPEN.contains(&path) || path.starts_with("/docs/") || path.starts_with("/page/") {
-        return Ok(Client(address));
-    }
-    let scope = match *request.method() {
-        Method::GET | Method::HEAD => KeyScope::Read,
-        _ => KeyScope::Run,
-    };
-    let given = request.headers().get(header::AUTHORIZATION).and_then(|value| value.to_str().ok());
-    let key = given.and_then(|value| value.split_once(' '));
-    let key = key.filter(|(scheme, _)| scheme.eq_ignore_ascii_case("bearer"));
-    let (_, key) = key.ok_or(ApiError::Key)?;
-    match keys.check(key.trim(), scope) {
-        Some((name, true)) => Ok(Client(name.to_owned())),
-        Some((_, false)) => Err(ApiError::Scope(scope.name())),
-        None => Err(ApiError::Key),
     }
 }

@@ -16,8 +16,9 @@ use utoipa::ToSchema;
 
 use super::{
     cancel::CancelOnDrop,
+    client::Client,
     error::ApiError,
-    extract::{Accept, BodyText, PathParameters},
+    extract::{Accept, MistText, PathParameters},
     problem::Problems,
     query::{MaterialQuery, admit},
     schema,
@@ -66,11 +67,11 @@ pub(super) struct PatchBody {
 }
 
 /// The rows of a body: JSON, or one per line.
-fn rows(body: &str) -> Result<PatchList, ApiError> {
-    if !body.trim_start().starts_with('{') {
-        return Ok(read("patches", body)?);
+fn rows(body: &MistText) -> Result<PatchList, ApiError> {
+    if !body.is_json {
+        return Ok(read("patches", &body.text)?);
     }
-    let PatchesJson { patches } = serde_json::from_str(body)
+    let PatchesJson { patches } = serde_json::from_str(&body.text)
         .map_err(|error| ApiError::Body(format!("not a list of patches: {error}")))?;
     Ok(patches)
 }
@@ -82,7 +83,7 @@ fn rows(body: &str) -> Result<PatchList, ApiError> {
     path = "/v1/materials/{name}/integrate",
     tag = "materials",
     params(schema::MaterialName, MaterialQuery),
-    request_body(content((String = "text/plain"), (Patches = "application/json"))),
+    request_body(content((String = "application/x-mist"), (Patches = "application/json"))),
     responses(
         (status = 200, description = "A table of colours, spectra or Mueller matrices", content(
             (String = "text/plain"), (serde_json::Value = "application/json"),
@@ -95,13 +96,14 @@ pub(super) async fn integrate(
     PathParameters(name): PathParameters<String>,
     query: MaterialQuery,
     accept: Accept,
-    BodyText(body): BodyText,
+    client: Client,
+    body: MistText,
 ) -> Result<Response, ApiError> {
     let out = LobeOutput::parse(query.out().unwrap_or("rgb"))?;
     let kept = app.materials.find(&name)?;
     let mut request = query.request_at(rows(&body)?, &name)?;
-    admit(&request, &app.limits)?;
-    request.limits = app.limits.engine(app.limits.max_time);
+    admit(&request, &client.limits)?;
+    request.limits = client.limits.engine(client.limits.max_time);
     request.stokes |= query.component() > 0;
     let json = accept == Accept::Json;
     let values = if out == LobeOutput::Mueller { 16.0 } else { 1.0 };
@@ -112,7 +114,7 @@ pub(super) async fn integrate(
         let _held = held;
         answer(&kept, &request, &query, &control, (out, json))
     };
-    let text = app.compute_in_time(work).await??;
+    let text = app.compute_in_time(&client, work).await??;
     let kind = if json { "application/json" } else { "text/plain; charset=utf-8" };
     Ok(([(header::CONTENT_TYPE, kind)], text).into_response())
 }

@@ -18,9 +18,9 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::job_document::JobDocument;
 use super::{
+    client::Client,
     error::ApiError,
     extract::{Accept, PathParameters, Query},
-    guard::Client,
     problem::Problems,
     run::answer,
     state::App,
@@ -70,7 +70,7 @@ pub(super) struct TableOptions {
     path = "/v1/jobs",
     tag = "jobs",
     request_body(content(
-        (ProgramRequest = "application/json"), (String = "text/plain"), (ProgramRequest = "multipart/form-data"),
+        (ProgramRequest = "application/json"), (String = "application/x-mist"),
     )),
     responses(
         (status = 202, description = "It is kept and will run", body = Accepted,
@@ -83,16 +83,16 @@ pub(super) async fn submit(
     client: Client,
     body: ProgramRequest,
 ) -> Result<Response, ApiError> {
-    app.jobs.admit(&client.0)?;
+    app.jobs.admit(&client.name)?;
     // What is wrong with a program is told now rather than later.
     let limits = app.limits.clone();
     let body = app
-        .compute_in_time(move || -> Result<ProgramRequest, ProgramError> {
+        .compute_in_time(&client, move || -> Result<ProgramRequest, ProgramError> {
             body.compile(limits.engine(limits.max_job_time))?;
             Ok(body)
         })
         .await??;
-    let status = app.blocking(move |app| Ok(app.jobs.submit(&body, client.0)?)).await?;
+    let status = app.blocking(move |app| Ok(app.jobs.submit(&body, client.name)?)).await?;
     let location = HeaderValue::from_str(&format!("/v1/jobs/{}", status.id));
     let location = location.map_err(|error| ApiError::Failed(error.to_string()))?;
     let accepted = Json(Accepted { id: status.id });
@@ -140,8 +140,10 @@ pub(super) async fn get(
 pub(super) async fn cancel(
     State(app): State<App>,
     PathParameters(id): PathParameters<String>,
+    client: Client,
 ) -> Result<(StatusCode, Json<JobDocument>), ApiError> {
     let job = app.jobs.find(&id)?;
+    client.may_change(Some(job.client()), "the job")?;
     let status = app.blocking(move |app| Ok(app.jobs.cancel(&job)?)).await?;
     let code = if status.state.is_over() { StatusCode::OK } else { StatusCode::ACCEPTED };
     Ok((code, Json(status.into())))

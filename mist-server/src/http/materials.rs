@@ -8,8 +8,9 @@ use axum::{
 };
 
 use super::{
+    client::Client,
     error::ApiError,
-    extract::{BodyText, PathParameters},
+    extract::{MIST, MistText, PathParameters},
     problem::Problems,
     schema,
     state::App,
@@ -27,32 +28,38 @@ const LONGEST_NAME: usize = 200;
     params(schema::MaterialName),
     request_body(content(
         (schema::MaterialBody = "application/json"),
-        (String = "text/plain"),
+        (String = "application/x-mist"),
     )),
     responses((status = 201, description = "It is kept", body = schema::MaterialHash), Problems),
 )]
 pub(super) async fn put(
     State(app): State<App>,
     PathParameters(name): PathParameters<String>,
-    BodyText(body): BodyText,
+    client: Client,
+    body: MistText,
 ) -> Result<(StatusCode, Json<schema::MaterialHash>), ApiError> {
     if name.len() > LONGEST_NAME || name.chars().any(char::is_control) {
         let message = format!("a name has up to {LONGEST_NAME} bytes and no control characters");
         return Err(ApiError::Query(message));
     }
     let most = app.limits.max_materials;
-    if app.materials.len() >= most && app.materials.find(&name).is_err() {
+    let known = app.materials.find(&name).ok();
+    if let Some(known) = &known {
+        client.may_change(known.owner.as_deref(), "the material")?;
+    }
+    if app.materials.len() >= most && known.is_none() {
         return Err(ApiError::Limit(LimitReached {
             flag: "max-materials",
             value: most as f64,
             message: format!("{most} materials are kept already: delete one"),
         }));
     }
-    let limits = app.limits.clone();
-    let kept = app.compute_in_time(move || StoredMaterial::new(body, &limits)).await??;
+    let (limits, owner) = (client.limits.clone(), Some(client.name.clone()));
+    let work = move || StoredMaterial::new(body.text, body.is_json, owner, &limits);
+    let kept = app.compute_in_time(&client, work).await??;
     let hash = kept.hash.clone();
     let (text, key) = (kept.text.clone(), name.clone());
-    app.store(move |store| store.put_material(&key, &text)).await?;
+    app.store(move |store| store.put_material(&key, &text, &client.name)).await?;
     app.materials.insert(name, kept);
     Ok((StatusCode::CREATED, Json(schema::MaterialHash { hash })))
 }
@@ -78,7 +85,7 @@ pub(super) async fn list(State(app): State<App>) -> Json<Vec<schema::MaterialEnt
     responses(
         (status = 200, description = "The body of the request that brought it", content(
             (schema::MaterialBody = "application/json"),
-            (String = "text/plain"),
+            (String = "application/x-mist"),
         )),
         Problems,
     ),
@@ -88,8 +95,7 @@ pub(super) async fn get(
     PathParameters(name): PathParameters<String>,
 ) -> Result<Response, ApiError> {
     let kept = app.materials.find(&name)?;
-    let is_json = kept.text.trim_start().starts_with('{');
-    let kind = if is_json { "application/json" } else { "text/plain; charset=utf-8" };
+    let kind = if kept.is_json { "application/json" } else { MIST };
     Ok(([(header::CONTENT_TYPE, kind)], kept.text.clone()).into_response())
 }
 
@@ -104,8 +110,10 @@ pub(super) async fn get(
 pub(super) async fn delete(
     State(app): State<App>,
     PathParameters(name): PathParameters<String>,
+    client: Client,
 ) -> Result<StatusCode, ApiError> {
-    app.materials.find(&name)?;
+    let kept = app.materials.find(&name)?;
+    client.may_change(kept.owner.as_deref(), "the material")?;
     let key = name.clone();
     app.store(move |store| store.remove_material(&key)).await?;
     app.materials.remove(&name);

@@ -33,7 +33,7 @@ const SCRIPTS: &[Embedded] = scripts!(
 );
 
 /// Nothing comes from elsewhere, and nothing frames the page.
-const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; \
+pub(super) const POLICY: &str = "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; \
     frame-ancestors 'none'";
 
 /// `/` and `/page/…`

@@ -1,6 +1,7 @@
 //! Every route of the service, and its description in OpenAPI.
 
 use axum::{Router, extract::DefaultBodyLimit, middleware, routing::get};
+use tower::util::option_layer;
 use tower_http::compression::CompressionLayer;
 use utoipa::OpenApi;
 use utoipa_axum::{router::OpenApiRouter, routes};
@@ -86,5 +87,6 @@ pub fn router(app: App) -> Router {
         .layer(DefaultBodyLimit::max(app.limits.max_body))
         .layer(middleware::from_fn_with_state(app.clone(), guard::guard))
         .layer(CompressionLayer::new())
+        .layer(option_layer(app.origins.cors()))
         .with_state(app)
 }

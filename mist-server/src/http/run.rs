@@ -12,7 +12,8 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::{
-    cancel::CancelOnDrop, error::ApiError, extract::Accept, problem::Problems, state::App,
+    cancel::CancelOnDrop, client::Client, error::ApiError, extract::Accept, problem::Problems,
+    state::App,
 };
 use crate::{
     failure::LocatedDiagnostic,
@@ -24,14 +25,13 @@ use crate::{
 /// Run a program with its data files; the answer is its table: text as the program writes it,
 /// CSV, or JSON.
 ///
-/// The body is JSON, `multipart/form-data` (a part `program`, every other part a data file; also
-/// `compat`, `job`, `seed`), or the bare text of a program.
+/// The body is JSON, or the bare text of a program as `application/x-mist`.
 #[utoipa::path(
     post,
     path = "/v1/run",
     tag = "programs",
     request_body(content(
-        (ProgramRequest = "application/json"), (String = "text/plain"), (ProgramRequest = "multipart/form-data"),
+        (ProgramRequest = "application/json"), (String = "application/x-mist"),
     )),
     responses(
         (status = 200, description = "The table", content(
@@ -43,13 +43,14 @@ use crate::{
 pub(super) async fn run(
     State(app): State<App>,
     accept: Accept,
+    client: Client,
     body: ProgramRequest,
 ) -> Result<Response, ApiError> {
     let cancel = CancelOnDrop::default();
     let control = cancel.control();
-    let limits = app.limits.clone();
+    let limits = client.limits.clone();
     let (text, header_lines) =
-        app.compute_in_time(move || attempt(&body, &limits, &control)).await??;
+        app.compute_in_time(&client, move || attempt(&body, &limits, &control)).await??;
     Ok(answer(text, header_lines, accept))
 }
 
@@ -59,17 +60,19 @@ pub(super) async fn run(
     path = "/v1/check",
     tag = "programs",
     request_body(content(
-        (ProgramRequest = "application/json"), (String = "text/plain"), (ProgramRequest = "multipart/form-data"),
+        (ProgramRequest = "application/json"), (String = "application/x-mist"),
     )),
     responses((status = 200, description = "Empty if nothing is", body = Checked), Problems),
 )]
 pub(super) async fn check(
     State(app): State<App>,
+    client: Client,
     body: ProgramRequest,
 ) -> Result<Json<Checked>, ApiError> {
-    let limits = app.limits.clone();
+    let limits = client.limits.clone();
     let work = move || body.compile(limits.engine(limits.max_time)).err();
-    let problem = app.compute_in_time(work).await?.map(|error| ApiError::from(error).problem());
+    let problem =
+        app.compute_in_time(&client, work).await?.map(|error| ApiError::from(error).problem());
     match problem {
         None => Ok(Json(Checked { diagnostics: Vec::new() })),
         Some(problem) if problem.diagnostics.is_empty() => {

@@ -4,12 +4,19 @@ use std::{path::Path, sync::Arc};
 
 use axum::body::Bytes;
 
-use super::{error::ApiError, prepared_lobes::PreparedLobesCache, problem::Problem};
+use super::{
+    client::{Client, FailedKeys},
+    error::ApiError,
+    origin::OriginRules,
+    prepared_lobes::PreparedLobesCache,
+    problem::Problem,
+};
 use crate::{
+    access::AccessOptions,
     compute::ComputePool,
     jobs::Jobs,
     keys::Keys,
-    limits::{LimitReached, ServeLimits},
+    limits::ServeLimits,
     materials::{Materials, StoredMaterial},
     memory::MemoryBudget,
     metrics::Metrics,
@@ -26,7 +33,12 @@ pub(super) type FileProducer = Producer<Bytes, Problem>;
 #[derive(Clone)]
 pub struct App {
     pub(super) limits: Arc<ServeLimits>,
+    /// The limits of keys with the scope `read`.
+    pub(super) read_limits: Arc<ServeLimits>,
+    pub(super) access: Arc<AccessOptions>,
+    pub(super) origins: Arc<OriginRules>,
     pub(super) keys: Option<Arc<Keys>>,
+    pub(super) failed_keys: FailedKeys,
     pub(super) compute: ComputePool,
     pub(super) memory: MemoryBudget,
     pub(super) materials: Materials,
@@ -75,8 +87,9 @@ impl App {
         let limits = Arc::new(limits);
         let store = Store::new(data)?;
         let materials = Materials::default();
-        for (name, text) in store.materials()? {
-            match StoredMaterial::new(text, &limits) {
+        for (name, text, owner) in store.materials()? {
+            let is_json = text.trim_start().starts_with('{');
+            match StoredMaterial::new(text, is_json, owner, &limits) {
                 Ok(material) => materials.insert(name, material),
                 Err(error) => tracing::warn!(
                     name,
@@ -89,6 +102,10 @@ impl App {
         let jobs = Jobs::open(store.clone(), limits.clone())?;
         jobs.start();
         Ok(Self {
+            read_limits: Arc::new(limits.of_reader()),
+            access: Arc::default(),
+            origins: Arc::default(),
+            failed_keys: FailedKeys::default(),
             keys: keys.map(Keys::parse).transpose().map_err(StartError::Keys)?.map(Arc::new),
             compute: ComputePool::new(limits.max_computing, limits.max_waiting),
             memory: MemoryBudget::new(limits.max_memory),
@@ -100,6 +117,14 @@ impl App {
             store,
             limits,
         })
+    }
+
+    /// The same with these rules about hosts, web pages and addresses.
+    #[must_use]
+    pub fn with_access(mut self, access: AccessOptions) -> Self {
+        self.origins = Arc::new(OriginRules::new(&access));
+        self.access = Arc::new(access);
+        self
     }
 
     /// Ends the answers that last as long as a job, so that the service can stop.
@@ -115,19 +140,13 @@ impl App {
     /// Does `work` on the compute pool, within the time of one answer.
     pub(super) async fn compute_in_time<T: Send + 'static>(
         &self,
+        client: &Client,
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Result<T, ApiError> {
-        match tokio::time::timeout(self.limits.time(), self.compute.run(work)).await {
+        match tokio::time::timeout(client.limits.time(), self.compute.run(work)).await {
             Ok(done) => Ok(done?),
-            Err(_) => Err(self.too_long()),
+            Err(_) => Err(client.too_long()),
         }
-    }
-
-    /// The error of work that takes longer than one answer may.
-    pub(super) fn too_long(&self) -> ApiError {
-        let value = self.limits.max_time;
-        let message = format!("the answer takes longer than {value} s");
-        ApiError::Limit(LimitReached { flag: "max-time", value, message })
     }
 
     /// Reads or writes the store.

@@ -15,6 +15,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 
 use super::{
+    client::Client,
     error::ApiError,
     export,
     extract::PathParameters,
@@ -63,16 +64,17 @@ pub(super) struct TablePath {
 pub(super) async fn table(
     State(app): State<App>,
     PathParameters((name, file)): PathParameters<(String, String)>,
+    client: Client,
     uri: Uri,
     headers: HeaderMap,
 ) -> Result<Response, ApiError> {
     let format = format_of(&file)?;
     match format.writer {
         FormatWriter::Colours(writer) => {
-            colours(&app, &name, (format, writer), (&headers, &uri)).await
+            colours(&app, &client, &name, (format, writer), (&headers, &uri)).await
         }
         FormatWriter::Material(writer) => {
-            export::answer(&app, name, (format, writer), (&headers, &uri)).await
+            export::answer(&app, &client, name, (format, writer), (&headers, &uri)).await
         }
     }
 }
@@ -88,6 +90,7 @@ fn format_of(file: &str) -> Result<&'static FileFormat, ApiError> {
 
 async fn colours(
     app: &App,
+    client: &Client,
     name: &str,
     (format, writer): (&'static FileFormat, ColourWriter),
     (headers, uri): (&HeaderMap, &Uri),
@@ -102,8 +105,8 @@ async fn colours(
     if let Some(answer) = file.not_modified() {
         return Ok(answer);
     }
-    admit(&request, &app.limits)?;
-    request.limits = app.limits.engine(app.limits.max_time);
+    admit(&request, &client.limits)?;
+    request.limits = client.limits.engine(client.limits.max_time);
     let bytes = memory_of(&request);
     let work = move |control: &mist_engine::Control| {
         let table = table::table(&kept.prepared, &request, control)?;
@@ -111,7 +114,7 @@ async fn colours(
             .map_err(|error| MaterialError::NotFinite(error.to_string()))?;
         Ok(Bytes::from(text))
     };
-    file.answer(app, bytes, work).await
+    file.answer(app, client, bytes, work).await
 }
 
 /// Bytes of a table and of its text while it is made, about: its numbers as f64 and with about

@@ -48,6 +48,11 @@ impl ServiceJob {
         }
     }
 
+    /// The client that submitted it.
+    pub(crate) fn client(&self) -> &str {
+        &self.client
+    }
+
     /// Its status now.
     pub(crate) fn status(&self) -> JobStatus {
         self.status.borrow().clone()

@@ -27,7 +27,7 @@ impl Answer {
     }
 }
 
-/// Sends a text, and a tag that the client knows.
+/// Sends a text, as JSON if it begins so, and a tag that the client knows.
 pub(crate) async fn ask(
     app: &App,
     method: Method,
@@ -35,13 +35,16 @@ pub(crate) async fn ask(
     tag: Option<&str>,
     body: &str,
 ) -> Answer {
-    let headers: Vec<(&str, &str)> = tag.map(|tag| ("if-none-match", tag)).into_iter().collect();
+    let kind = if body.starts_with('{') { "application/json" } else { "application/x-mist" };
+    let tag = tag.map(|tag| ("if-none-match", tag));
+    let headers: Vec<(&str, &str)> = tag.into_iter().chain([("content-type", kind)]).collect();
     let (status, headers, bytes) = send(app, method, uri, &headers, body.to_owned()).await;
     let tag = headers.get(header::ETAG).map(|t| t.to_str().unwrap().to_owned());
     Answer { status, headers, tag, text: String::from_utf8(bytes).unwrap() }
 }
 
-/// Sends any body with any headers.
+/// Sends any body with any headers; without others to `localhost`, a posted body as vectors and
+/// another one as JSON.
 pub(crate) async fn send(
     app: &App,
     method: Method,
@@ -49,7 +52,16 @@ pub(crate) async fn send(
     headers: &[(&str, &str)],
     body: impl Into<Body>,
 ) -> (StatusCode, HeaderMap, Vec<u8>) {
+    let usual = match method {
+        Method::POST => "application/octet-stream",
+        _ => "application/json",
+    };
     let mut request = Request::builder().method(method).uri(uri);
+    for (name, value) in [("host", "localhost"), ("content-type", usual)] {
+        if !headers.iter().any(|(given, _)| *given == name) {
+            request = request.header(name, value);
+        }
+    }
     for (name, value) in headers {
         request = request.header(*name, *value);
     }

@@ -74,12 +74,12 @@ async fn patches_as_json_have_the_rows_of_the_same_text() {
 async fn matrices_of_patches_begin_with_their_spectra() {
     let app = App::default();
     ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;
-    let accept = [("accept", "application/json")];
+    let headers = [("accept", "application/json"), ("content-type", "application/x-mist")];
     let uri = |out| format!("/v1/materials/glass/integrate?out={out}&lambda=450,550,650");
     let mut answers = Vec::new();
     for out in ["mueller", "spectral"] {
         let (status, headers, bytes) =
-            send(&app, Method::POST, &uri(out), &accept, ROWS.to_owned()).await;
+            send(&app, Method::POST, &uri(out), &headers, ROWS.to_owned()).await;
         assert_eq!(
             (status, &headers["content-type"]),
             (StatusCode::OK, &"application/json".parse().unwrap())

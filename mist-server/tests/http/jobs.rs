@@ -72,22 +72,6 @@ async fn a_program_gives_its_table_as_text_csv_and_json() {
 }
 
 #[tokio::test]
-async fn a_form_with_files_is_the_same_program() {
-    let app = App::default();
-    let part = |name: &str, file: &str, text: &str| {
-        format!("--xyz\r\nContent-Disposition: form-data; name=\"{name}\"{file}\r\n\r\n{text}\r\n")
-    };
-    let form = part("program", "; filename=\"p.mist\"", PROGRAM)
-        + &part("file", "; filename=\"r.txt\"", WHITE)
-        + &part("compat", "", "false")
-        + "--xyz--\r\n";
-    let kind = [("content-type", "multipart/form-data; boundary=xyz")];
-    let (status, _, bytes) = send(&app, Method::POST, "/v1/run", &kind, form).await;
-    let text = String::from_utf8(bytes).unwrap();
-    assert_eq!((status, text), (StatusCode::OK, expected().results));
-}
-
-#[tokio::test]
 async fn a_job_ends_with_the_texts_of_its_run() {
     let app = App::default();
     let accepted = post_json(&app, "/v1/jobs", &body()).await;

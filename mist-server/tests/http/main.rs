@@ -1,5 +1,6 @@
 //! The service, asked without a socket.
 
+mod access;
 mod ask;
 mod evaluate;
 mod integrate;

@@ -97,7 +97,7 @@ async fn what_is_too_large_is_refused_with_the_name_of_the_limit() {
         ),
     ];
     for (method, uri, body, status, limit) in cases {
-        let kind = [("content-type", "text/plain")];
+        let kind = [("content-type", "application/x-mist")];
         let (found, headers, bytes) = send(&app, method, &uri, &kind, body.to_owned()).await;
         let text = String::from_utf8(bytes).unwrap();
         assert_eq!(found.as_u16(), status, "{uri}: {text}");
@@ -146,6 +146,7 @@ async fn a_service_with_keys_lets_nobody_in_without_one() {
         (Method::GET, get, "Bearer r", 200),
         (Method::PUT, put, "Bearer r", 403),
         (Method::PUT, put, "bearer k", 201),
+        (Method::POST, "/v1/materials/none/evaluate", "Bearer r", 400),
         (Method::GET, "/metrics", "", 401),
     ] {
         let headers: Vec<(&str, &str)> =
