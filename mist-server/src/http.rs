@@ -1,5 +1,6 @@
 //! The service over HTTP: the only modules that know statuses, headers and axum.
 
+mod admission;
 mod cancel;
 mod client;
 mod color;
@@ -7,6 +8,7 @@ mod error;
 mod evaluate;
 mod export;
 mod extract;
+mod failed_keys;
 mod file_response;
 mod guard;
 mod health;
@@ -15,6 +17,7 @@ mod job_document;
 mod jobs;
 mod listen;
 mod materials;
+mod media;
 mod metrics;
 mod models;
 mod origin;

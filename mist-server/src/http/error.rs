@@ -7,7 +7,7 @@ use axum::{
 };
 use mist_engine::{material::MaterialError, request::RequestError};
 
-use super::{extract::MIST, problem::Problem};
+use super::{media::MIST, problem::Problem};
 use crate::{
     compute::ComputeError, failure::FailureReport, jobs::JobsError, limits::LimitReached,
     materials::MaterialsError, memory::MemoryError, program::ProgramError, store::StoreError,

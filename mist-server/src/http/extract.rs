@@ -8,7 +8,11 @@ use axum::{
 use mist_runner::files::decode;
 use serde::de::DeserializeOwned;
 
-use super::{error::ApiError, state::App};
+use super::{
+    error::ApiError,
+    media::{JSON, MIST, VECTORS},
+    state::App,
+};
 use crate::limits::LimitReached;
 
 /// The named parts of the address.
@@ -41,13 +45,6 @@ impl<T: DeserializeOwned> Query<T> {
         found.map(|query| Self(query.0)).map_err(|error| ApiError::Query(error.body_text()))
     }
 }
-
-/// Media type of JSON.
-const JSON: &str = "application/json";
-/// Media type of the text of a program, and of rows of patches.
-pub(super) const MIST: &str = "application/x-mist";
-/// Media type of the vectors of a renderer.
-const VECTORS: &str = "application/octet-stream";
 
 /// Refuses a body of another media type than `expected`: a form of a foreign page can send
 /// `text/plain`, `multipart/form-data` and `application/x-www-form-urlencoded`, and nothing else.

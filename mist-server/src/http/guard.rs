@@ -12,7 +12,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 
-use super::{client, error::ApiError, page, state::App};
+use super::{admission, error::ApiError, page, state::App};
 use crate::memory::Reservation;
 
 /// The header with the number of a request.
@@ -46,9 +46,9 @@ pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Ne
     let id = request_id(&request);
     let (method, uri) = (request.method().clone(), request.uri().clone());
     let route = request.extensions().get::<MatchedPath>().cloned();
-    let address = client::address(&app, &request);
+    let address = admission::address(&app, &request);
     let admitted = app.origins.check(&request).and_then(|()| {
-        let client = client::admit(&app, &request, &address)?;
+        let client = admission::admit(&app, &request, &address)?;
         Ok((client, reserve_body(&app, &request)?))
     });
     let (mut response, client) = match admitted {

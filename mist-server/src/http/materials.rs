@@ -10,7 +10,8 @@ use axum::{
 use super::{
     client::Client,
     error::ApiError,
-    extract::{MIST, MistText, PathParameters},
+    extract::{MistText, PathParameters},
+    media::MIST,
     problem::Problems,
     schema,
     state::App,

@@ -5,11 +5,8 @@ use std::{path::Path, sync::Arc};
 use axum::body::Bytes;
 
 use super::{
-    client::{Client, FailedKeys},
-    error::ApiError,
-    origin::OriginRules,
-    prepared_lobes::PreparedLobesCache,
-    problem::Problem,
+    client::Client, error::ApiError, failed_keys::FailedKeys, origin::OriginRules,
+    prepared_lobes::PreparedLobesCache, problem::Problem,
 };
 use crate::{
     access::AccessOptions,
