@@ -49,7 +49,12 @@
 //! M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969); T. A. Germer and M. E. Nadal,
 //! Proc. SPIE 4447, 77 (2001); L. B. Wolff, JOSA A 11, 2956 (1994).
 
-use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
+mod diffuse_light;
+mod parameters;
+
+use std::f64::consts::FRAC_1_PI;
+
+use diffuse_light::DiffuseLight;
 
 use super::{
     body,
@@ -59,7 +64,7 @@ use super::{
     interface::{
         Interface, InterfaceRay, InterfaceTransmission, RoughnessParameters, behind, realizable,
     },
-    interreflection::{DiffuseMeans, InterreflectionMatrix},
+    interreflection::InterreflectionMatrix,
     published::{PublishedForm, printed_jacobian, transposed_jones},
     transmission::depolarized,
 };
@@ -69,10 +74,8 @@ use crate::{
         Brdf, COMMON, CommonParameters,
         facet::{FACET, subsurface::OVERCOAT},
     },
-    reflectance, scatterer, shadow,
-    slope::{self, SlopeDistribution},
-    spec::{Class, Laws, Parameter, Spec},
-    special::gauss,
+    slope::SlopeDistribution,
+    spec::{Class, Laws, Spec},
     stack::Stack,
 };
 
@@ -84,70 +87,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         summary: "Rough coat with flakes over a body of particles",
         equation: "F = F_surface + ws T F_flakes T/n^2 + wd a/(pi n^2 (1-rho a)) t x t + light through flakes",
         source: "germer-2001 sancer-1969 wolff-1994 vandehulst-1980 wiscombe-1976 wiscombe-1977",
-        params: &[COMMON, FACET, OVERCOAT, OWN],
+        params: &[COMMON, FACET, OVERCOAT, parameters::OWN],
         laws: Laws::ALL,
     },
     build: |node| Ok(Box::new(PigmentedCoating::read(node)?)),
 };
-
-const OWN: &[Parameter] = &[
-    Parameter::member(
-        "surface_sdf",
-        &slope::FAMILY,
-        "Anisotropic_Gaussian_Slope_Distribution_Function",
-        "Density of the slopes of the coat's surface",
-    ),
-    Parameter::member(
-        "surface_shadow",
-        &shadow::FAMILY,
-        "Sancer_Shadow_Function",
-        "Shadowing of the coat's surface",
-    ),
-    Parameter::number("flake_density", 0.0001, "1/um^3", "Flakes per volume"),
-    Parameter::number("flake_area", 300.0, "um^2", "Area of a flake"),
-    Parameter::number("thickness", 30.0, "um", "Thickness of the coat"),
-    Parameter::number(
-        "correlation",
-        1.0,
-        "1",
-        "Probability that light leaves by the gap by which it entered, 0 to 1",
-    ),
-    Parameter::member(
-        "particle",
-        &scatterer::FAMILY,
-        "MieScatterer",
-        "Particle of the body; its lambda, medium and radius are set by the coating",
-    ),
-    Parameter::number("particle_radius", 0.1, "um", "Radius of the particles"),
-    Parameter::number("particle_density", 0.0, "1/um^3", "Particles per volume"),
-    Parameter::member(
-        "backing",
-        &reflectance::FAMILY,
-        "Table_Reflectance",
-        "Reflectance of what lies below the coat, for diffuse light inside it",
-    ),
-    Parameter::integer(
-        "printed",
-        0,
-        "0 consistent; 1 the body as in the paper's equation 9; 2 the flakes' weight of equation 11 too",
-    ),
-    Parameter::member(
-        "flake_shadow",
-        &shadow::FAMILY,
-        "Sancer_Shadow_Function",
-        "Shadowing of flakes by each other, at the angles inside the coat",
-    ),
-    Parameter::number(
-        "flake_spread",
-        0.0,
-        "1",
-        "Relative standard deviation of the thickness of the flakes' films, below 1/3",
-    ),
-    Parameter::integer("albedo", 0, "Albedo of the body: 0 adding and doubling, 1 Kubelka-Munk"),
-    Parameter::integer("exchange", 0, "Light between flakes and surface: 0 left out, 1 taken in"),
-    Parameter::integer("printed_surface", 0, "1: the surface as in the paper's equations 4 to 6"),
-    Parameter::integer("printed_flakes", 0, "1: the flakes as in the paper's equation 8"),
-];
 
 /// Spheres that fill more of the volume do not scatter independently: they are closer than about
 /// a radius then.
@@ -155,9 +99,6 @@ const INDEPENDENT: f64 = 0.1;
 
 /// Light lost between flakes above which a notice is given.
 const LOST: f64 = 0.05;
-
-/// Nodes of the integrals over the surface.
-const NODES: usize = 96;
 
 /// A pigmented coating.
 struct PigmentedCoating {
@@ -226,11 +167,12 @@ impl PigmentedCoating {
         }
         let n2 = self.n * self.n;
         let shape = |ray: &InterfaceRay| self.slab.shape(ray.cos);
-        let escaping = self.escaping(|ray| {
+        let light = self.diffuse_light();
+        let escaping = light.escaping(|ray| {
             self.surface.mean_passage(ray.sin).row()[0] * shape(&ray.below(self.n))
         });
-        let returned = self.inside(|ray| {
-            self.internal_reflectance(ray) * self.cover.left(2.0, ray.cos) * shape(ray).powi(2)
+        let returned = light.inside(|ray| {
+            light.internal_reflectance(ray) * self.cover.left(2.0, ray.cos) * shape(ray).powi(2)
         });
         // α returned ≤ 1 − escaping, exactly where nothing absorbs.
         let rho =
@@ -245,81 +187,16 @@ impl PigmentedCoating {
                 |up: &InterfaceRay| surface.sends_back(up).scaled(cover.left(2.0 * level, up.cos));
             flakes.tabulate(node, &internal, 1.0 / self.n)?;
             let InterreflectionMatrix { ll, lc, cc } =
-                InterreflectionMatrix::new(&self.means(), alpha);
+                InterreflectionMatrix::new(&self.diffuse_light().means(), alpha);
             let part = |x: f64| x * weight * FRAC_1_PI / n2;
             self.through = InterreflectionMatrix { ll: part(ll), lc: part(lc), cc: part(cc) };
         }
         Ok(())
     }
 
-    /// The means over diffuse light at flakes.
-    fn means(&self) -> DiffuseMeans {
-        let level = self.cover.level();
-        let internal = |ray: &InterfaceRay| {
-            let back = self.surface.mean_sent_back(ray.sin * self.n);
-            back.scaled(self.cover.left(2.0 * level, ray.cos))
-        };
-        // Ways between flakes and body, once or down and up again.
-        let below = |ray: &InterfaceRay, ways: i32| {
-            let left = self.cover.left(f64::from(ways) * (1.0 - level), ray.cos);
-            left * self.slab.shape(ray.cos).powi(ways)
-        };
-        let both = |(s, p): (f64, f64)| 0.5 * (s + p);
-        let with = |a: (f64, f64), b: (f64, f64)| 0.5 * (a.0 * b.0 + a.1 * b.1);
-        let pair = |ray: &InterfaceRay| (internal(ray).s, internal(ray).p);
-        let fractions = |ray: &InterfaceRay| self.flakes.fractions(ray.sin);
-        let crossing = |ray: &InterfaceRay, of: &dyn Fn(&InterfaceRay) -> (f64, f64)| {
-            let (through, inside) = (self.surface.mean_passage(ray.sin), ray.below(self.n));
-            with((through.s, through.p), of(&inside))
-        };
-        let caught = |ray: &InterfaceRay| {
-            let (s, p) = fractions(ray).caught;
-            let left = self.cover.left(level, ray.cos);
-            (s * left, p * left)
-        };
-        let passed = |ray: &InterfaceRay| {
-            let (s, p) = fractions(ray).passed;
-            let left = self.cover.left(1.0, ray.cos) * self.slab.shape(ray.cos);
-            (s * left, p * left)
-        };
-        DiffuseMeans {
-            internal_reflectance: self.inside(|ray| both(pair(ray))),
-            caught_again: self.inside(|ray| with(pair(ray), fractions(ray).caught)),
-            passed_down: self.inside(|ray| with(pair(ray), fractions(ray).passed) * below(ray, 1)),
-            below: self.inside(|ray| both(fractions(ray).returned) * below(ray, 2)),
-            escapes: (
-                self.escaping(|ray| crossing(ray, &caught)),
-                self.escaping(|ray| crossing(ray, &passed)),
-            ),
-        }
-    }
-
-    /// Internal reflectance of the surface for an unpolarized ray, the mean over azimuths.
-    fn internal_reflectance(&self, inside: &InterfaceRay) -> f64 {
-        self.surface.mean_sent_back(inside.sin * self.n).row()[0]
-    }
-
-    /// The mean ∫f sin 2θ dθ over diffuse light outside, over n²: what of diffuse light inside
-    /// gets out where f passes from outside.
-    fn escaping(&self, f: impl Fn(&InterfaceRay) -> f64) -> f64 {
-        let n2 = self.n * self.n;
-        gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
-            f(&InterfaceRay::mean(t.sin())) * (2.0 * t).sin()
-        }) / n2
-    }
-
-    /// The mean over diffuse light inside.
-    fn inside(&self, f: impl Fn(&InterfaceRay) -> f64) -> f64 {
-        let n2 = self.n * self.n;
-        let kink = n2.min(1.0);
-        let piece = |from: f64, to: f64| {
-            gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
-                let sin2 = (from + (to - from) * t.sin().powi(2)) / n2;
-                f(&InterfaceRay::mean(sin2.sqrt().min(1.0))) * (2.0 * t).sin()
-            }) * (to - from)
-                / n2
-        };
-        piece(0.0, kink) + if n2 > kink { piece(kink, n2) } else { 0.0 }
+    fn diffuse_light(&self) -> DiffuseLight<'_> {
+        let Self { n, surface, flakes, cover, slab, .. } = self;
+        DiffuseLight { n: *n, surface, flakes, cover, slab }
     }
 
     fn note_limits(&self, node: &ParameterNode) -> Result<(), ParameterError> {
