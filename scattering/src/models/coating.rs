@@ -1,8 +1,8 @@
 //! Coatings of pigments and clear layers.
 //!
-//! What an interface lets pass is kept as factors of s, p and their coherence; what a rough one
-//! sends back is tabulated when a model is built, so that what it lets pass is the rest. Models
-//! below a coat are built immersed: for light that comes from inside the coat.
+//! The transmission of an interface is stored as factors of s, p and their coherence. The
+//! directional albedo of a rough interface is tabulated when a model is built; the rest is
+//! transmitted. Models below a coat are built immersed: for light that comes from inside the coat.
 
 use super::brdf::Brdf;
 use crate::spec::Spec;

@@ -3,8 +3,7 @@
 //! N particles per volume with the cross-sections C of [`crate::scatterer`] in the binder give the
 //! optical depth N C_ext L, the albedo C_sca/C_ext and the asymmetry g = ⟨cos⟩ of adding and
 //! doubling, or the coefficients K = 2 N C_abs and S = ¾ N C_sca (1 − g) of Kubelka and Munk. These
-//! hold for diffuse light; of a dark body that scatters forwards they make up to a fifth more of
-//! it.
+//! hold for diffuse light; for a dark body that scatters forwards they are up to a fifth too bright.
 //!
 //! P. Kubelka and F. Munk, Z. Tech. Phys. 12, 593 (1931); C. F. Bohren and D. R. Huffman,
 //! *Absorption and Scattering of Light by Small Particles* (Wiley, 1983).
@@ -21,7 +20,7 @@ use crate::{
     special::gauss,
 };
 
-/// Spheres of one size cannot be packed more densely than this.
+/// Largest volume fraction of spheres of one size (densest packing, rounded).
 const DENSEST: f64 = 0.74;
 
 /// The body of `node` inside a binder of index `binder`.
@@ -112,7 +111,7 @@ fn particle(
 
 /// ⟨cos⟩ of the scattered light.
 fn asymmetry(round: &dyn SphericalScatterer, radius: f64) -> f64 {
-    // The intensity is a polynomial of twice as many orders as the size parameter has.
+    // The intensity is a polynomial of about twice the size parameter in cos θ.
     let orders = round.surroundings().wave_number() * radius;
     let nodes = 32 + (2.0 * orders + 8.0 * orders.cbrt()) as usize;
     let (mut sum, mut along) = (0.0, 0.0);

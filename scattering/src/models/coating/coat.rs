@@ -42,7 +42,7 @@ impl LayersAbove {
     };
 }
 
-/// True if the absorption of layers is taken or left out.
+/// Switch: with or without the absorption of the layers.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Absorption {
     Lossy,
@@ -92,7 +92,7 @@ impl CoatLayer {
         let crossing = self.interface.crossing(ray).kept;
         let absorbed = self.left(cos, media);
         if self.interface.is_rough() {
-            // What it reflects goes into other directions.
+            // A rough interface reflects into other directions.
             let passes = above.passes.then(crossing).scaled(absorbed);
             return LayersAbove {
                 passes,

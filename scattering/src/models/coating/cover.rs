@@ -58,12 +58,12 @@ impl FlakeCover {
         (-self.passes * self.depth).exp()
     }
 
-    /// Transmittance of the binder for a ray with this cosine on the part `part` of its way.
+    /// Transmittance of the binder for a ray with this cosine over the fraction `part` of the thickness.
     pub(super) fn left(&self, part: f64, cos: f64) -> f64 {
         if self.binder > 0.0 { (-self.binder * part / cos).exp() } else { 1.0 }
     }
 
-    /// Mean depth of the flakes that are seen, over the thickness.
+    /// Mean depth of the visible flakes over the thickness of the coat.
     pub(super) fn level(&self) -> f64 {
         let whole = self.passes * self.depth;
         if whole < 1e-4 { 0.5 - whole / 12.0 } else { 1.0 / whole - 1.0 / whole.exp_m1() }

@@ -1,16 +1,23 @@
 //! Directional albedo of a rough surface, for every direction of incidence and polarization.
 //!
 //! $$ \mathbf e(\theta, r) = \int \mathbf F_{0\cdot}\cos\theta_s\,d\Omega_s
-//!    = \int \mathbf F_{0\cdot}\cos\theta_s\,4 c\,n_z^3\,d^2\zeta $$
+//!    = \int \mathbf F_{0\cdot}\cos\theta_s\,4 c\,n_z^3\,d^2\zeta \qquad (1) $$
 //!
-//! is a row: e · (I, Q, U, V) of the incident light is the returned power. c = −k_i·n̂. The
-//! integral runs over the slopes ζ of the facets, where a lobe has one size at all angles; light
-//! goes up from facets within the disc |ζ|² + 2 tan θ ζ_i < 1 alone (ζ_i along the plane of
-//! incidence), so each ray from ζ = 0 has one end and the integrand is smooth on it.
+//! e is the first row of a Mueller matrix: e · (I, Q, U, V) is the returned power for incident light
+//! with these Stokes parameters. c = −k_i·n̂ is the cosine of incidence on the facet, r the rotation of
+//! the sample.
 //!
-//! The table has the difference to the row of a smooth surface, which is small and varies slowly,
-//! on nodes that are dense towards grazing incidence; in the rotation r of the sample it is a
-//! Fourier series of even orders, since slopes (±ζ_x, ±ζ_y) are equally frequent.
+//! The integral runs over the slopes ζ of the facets, because in slopes the lobe has the same width
+//! at all angles of incidence. A facet sends light upwards only within the disc
+//!
+//! $$ |\zeta|^2 + 2\tan\theta\,\zeta_i < 1 \qquad (2) $$
+//!
+//! (ζ_i is the component in the plane of incidence), so on each ray from ζ = 0 the integrand is smooth up
+//! to one end.
+//!
+//! The table holds the difference from the row of a smooth surface, which is small and varies
+//! slowly. Its nodes are dense towards grazing incidence. In r it is a Fourier series of even orders,
+//! because slopes (±ζ_x, ±ζ_y) are equally frequent.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -20,7 +27,7 @@ use crate::{Direction, Incidence, slope::SlopeDistribution, special::gauss};
 const ANGLES: usize = 64;
 /// Nodes of the integral along each ray of slopes.
 const RADII: usize = 18;
-/// Rays at normal and at grazing incidence, where their ends differ most.
+/// Numbers of rays at normal and at grazing incidence; at grazing incidence their ends differ most.
 const AZIMUTHS: (usize, usize) = (40, 160);
 /// Rotations of an anisotropic surface over half a turn; even.
 const ROTATIONS: usize = 16;
@@ -30,10 +37,10 @@ const NEGLIGIBLE: f64 = 1e-11;
 const FARTHEST: f64 = 12.0;
 /// Steps in which a ray is searched for the edge.
 const EDGE_STEPS: usize = 12;
-/// The share of what returns by which the table is too large, more than its error, so that no
-/// energy is gained.
+/// Relative amount by which the table is made too large: more than its error, so that no energy is
+/// gained.
 const MARGIN: f64 = 2e-4;
-/// Grazing incidence: a limit that is not reached.
+/// Largest angle of incidence of the table; 90° itself is a limit.
 const GRAZING: f64 = FRAC_PI_2 - 1e-4;
 
 /// The rows of one surface.
@@ -44,13 +51,13 @@ pub(super) struct DirectionalAlbedo {
 }
 
 impl DirectionalAlbedo {
-    /// The integrals of `rows`, first rows of BRDFs of facets with these slopes, less `smooth`, what
-    /// they are for a smooth surface (a function of the sine of incidence).
+    /// Tabulates the integrals of `rows` (first rows of BRDFs of facets with these slopes) minus
+    /// `smooth`, the row of a smooth surface as a function of the sine of incidence.
     ///
-    /// `edge` is the sine of the exit at which rows bend, as where total reflection begins.
+    /// `edge` is the sine of the exit angle where `rows` have a kink, such as the critical angle.
     ///
-    /// Of each the intensity is taken too large ([`ErrorSign::Large`]) or too small by more than the
-    /// error of the table.
+    /// Each intensity is made too large ([`ErrorSign::Large`]) or too small by more than the error of
+    /// the table.
     pub(super) fn tabulate<const N: usize>(
         slopes: &dyn SlopeDistribution,
         rows: &FacetRows<'_, N>,
@@ -127,12 +134,12 @@ impl DirectionalAlbedo {
 pub(super) type FacetRows<'a, const N: usize> =
     dyn Fn(&Incidence, &Direction) -> [[f64; 4]; N] + 'a;
 
-/// On which side of the truth the error of a table has to be.
+/// Sign of the error of a table that conserves energy.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ErrorSign {
-    /// The remainder is transmitted.
+    /// Too large: the remainder is transmitted.
     Large,
-    /// It is added to what is there.
+    /// Too small: the value is added to other light.
     Small,
 }
 
@@ -145,7 +152,7 @@ impl ErrorSign {
     }
 }
 
-/// Angle at the place u of the table, both in units of their range.
+/// Angle of incidence at the coordinate u of the table, both as fractions of their range.
 fn angle(u: f64) -> f64 {
     1.0 - (1.0 - u) * (1.0 - u)
 }
@@ -189,7 +196,7 @@ struct SlopeQuadrature {
     /// End of the integral in standard deviations.
     reach: f64,
     radii: Vec<(f64, f64)>,
-    /// Cosine of the exit at which the integrand bends.
+    /// Cosine of the exit angle at which the integrand has a kink.
     edge: Option<f64>,
 }
 
@@ -298,7 +305,7 @@ impl SlopeQuadrature {
     }
 }
 
-/// Equal but for rounding.
+/// True if both are equal up to rounding.
 fn same(a: &[f64], b: &[f64]) -> bool {
     let largest = a.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-9 * largest)

@@ -22,7 +22,7 @@ use crate::special::gauss;
 const NODES: usize = 16;
 /// Optical depth of the thin slab over the smallest μ: its error is of third order.
 const THIN: f64 = 1e-2;
-/// Optical depth that nothing passes whatever the albedo.
+/// Optical depth that transmits nothing at any albedo.
 const OPAQUE: f64 = 1e7;
 
 /// Reflectance of a body for diffuse light and for beams.
@@ -31,12 +31,12 @@ pub(super) struct DiffuseSlab {
     /// Reflectance for diffuse light.
     pub(super) reflectance: f64,
     /// (μ, reflectance for a beam at μ over that for diffuse light, weight of the interpolation);
-    /// nothing if all beams fare alike.
+    /// empty if the reflectance does not depend on μ.
     beams: Vec<(f64, f64, f64)>,
 }
 
 impl DiffuseSlab {
-    /// A body that returns the same of all beams.
+    /// A body with the same reflectance for all beams.
     pub(super) fn uniform(reflectance: f64) -> Self {
         Self { reflectance, beams: Vec::new() }
     }
@@ -78,7 +78,7 @@ pub(super) fn slab(depth: f64, albedo: f64, g: f64, backing: f64) -> DiffuseSlab
     }
     let ground = Mat::from_fn(NODES, NODES, |_, j| 2.0 * backing * nodes[j].0 * nodes[j].1);
     let whole = &r + &t * &ground * (unit() - &r * &ground).partial_piv_lu().solve(&t);
-    // The radiance that a uniform one sends up: by reciprocity what returns of a beam.
+    // Radiance upwards under uniform illumination: by reciprocity the reflectance of a beam.
     let sum = |i: usize| (0..NODES).map(|j| whole[(i, j)]).sum::<f64>();
     let reflectance = nodes.iter().enumerate().map(|(i, (mu, w))| 2.0 * mu * w * sum(i)).sum();
     if !(reflectance > 0.0) {

@@ -1,16 +1,17 @@
-//! Light that rough interfaces of a coating keep among themselves.
+//! Compensation of the light that is lost between rough interfaces of a coating.
 //!
-//! A rough interface sends light into all directions; what of it meets another interface is not
-//! followed. Without absorption all that is neither sent out nor let pass,
+//! A rough interface sends light into all directions; the part that meets another interface is not
+//! followed. Without absorption, all light that is neither sent out nor transmitted,
 //!
-//! $$ \mathbf m = (1, 0) - \mathbf p - \mathbf r - \sum_j \mathbf p_j \mathbf x_j, \qquad
-//!    \mathbf x_j = \int \mathbf p_j(\theta_s)\,\mathbf F_j\cos\theta_s\,d\Omega_s $$
+//! $$ \mathbf m = (1, 0) - \mathbf p - \mathbf r - \sum_j \mathbf p_j \mathbf x_j, \qquad (1) $$
+//! $$ \mathbf x_j = \int \mathbf p_j(\theta_s)\,\mathbf F_j\cos\theta_s\,d\Omega_s \qquad (2) $$
 //!
-//! is taken as diffuse light that reaches the body: p passes all layers, r is sent out by smooth
-//! interfaces, p_j is what passes the layers above the rough interface j, x_j what of its light
-//! gets out through them. Diffuse light from the body then comes out by 1 − ρ = ∫(p + m) sin 2θ
-//! dθ/n², as reciprocity has it, and over a white body nothing is lost. Absorption takes of m what
-//! it takes of a ray on its way down.
+//! is taken as diffuse light that reaches the body. Here p is the transmission of all layers, r the
+//! reflection of smooth interfaces, p_j the transmission of the layers above the rough interface j,
+//! and x_j the part of the light of that interface that leaves through them.
+//!
+//! By reciprocity the fraction 1 − ρ = ∫(p + m) sin 2θ dθ/n² of diffuse light from the body leaves
+//! the coating; over a white body no light is lost. Absorption attenuates m like a ray on its way down.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -23,12 +24,12 @@ use crate::{Direction, Incidence, special::gauss};
 
 /// Nodes of the integral over diffuse light.
 const NODES: usize = 96;
-/// Azimuths of the same: more than the tables have orders.
+/// Azimuths of the integral over diffuse light: more than the orders of the tables.
 const AZIMUTHS: usize = 24;
 
 /// Fraction of the light of each rough interface that leaves the layers.
 pub(super) struct EnergyCompensation {
-    /// x_j for the interfaces below others.
+    /// x_j of (2) for the rough interfaces below others.
     seen: Vec<Option<DirectionalAlbedo>>,
 }
 
@@ -57,7 +58,7 @@ impl EnergyCompensation {
         (1.0 - out / (n * n)).max(0.0)
     }
 
-    /// Adds to `row`, what of `ray` passes all layers, what reaches the body otherwise.
+    /// Adds m of (1) to `row`, the transmission of all layers for `ray`.
     pub(super) fn add(&self, row: &mut [f64; 4], coats: &[CoatLayer], ray: InterfaceRay) {
         let (_, missing, left) = self.follow(coats, ray);
         for (x, m) in row.iter_mut().zip(missing) {
@@ -65,7 +66,7 @@ impl EnergyCompensation {
         }
     }
 
-    /// (p, m, what absorption leaves of m) of a ray.
+    /// (p, m, transmittance of m) of a ray; see (1).
     fn follow(&self, coats: &[CoatLayer], mut ray: InterfaceRay) -> ([f64; 4], [f64; 4], f64) {
         let mut above = LayersAbove::NOTHING;
         let mut missing = [1.0, 0.0, 0.0, 0.0];

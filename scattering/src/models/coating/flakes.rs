@@ -1,12 +1,14 @@
-//! Flakes in a binder: shadowed facets that reflect, and films that transmit to what lies below.
+//! Flakes in a binder: shadowed facets that reflect, with films that transmit to the body below.
 //!
-//! With `substrate` of the binder's index a flake is its films alone and what it does not reflect
-//! or absorb passes; with any other substrate it is an opaque core with films on it. The films of
-//! different flakes differ in thickness by a common factor of relative standard deviation
-//! `flake_spread`, over which intensities are averaged (five nodes of Gauss and Hermite).
+//! If `substrate` has the index of the binder, a flake consists of its films alone and transmits the
+//! light that it neither reflects nor absorbs. With any other substrate a flake is an opaque core
+//! with films on it. The thicknesses of the films of different flakes differ by a common factor of
+//! the relative standard deviation `flake_spread`; intensities are averaged over it (Gauss–Hermite
+//! quadrature with five nodes).
 //!
-//! What flakes absorb is taken for flakes that lie flat; what passes is what is left over by that
-//! and by what tilted ones return. Light that goes from one flake to another counts as passing.
+//! The absorption of flakes is that of flakes that lie flat. The transmitted light is the rest, after
+//! absorption and the reflection by tilted flakes. Light that goes from one flake to another counts as
+//! transmitted.
 
 use num_complex::Complex64;
 
@@ -34,7 +36,7 @@ const NORMAL: [(f64, f64); 5] = [
     (-2.856_970_013_872_806, 0.011_257_411_327_720_69),
 ];
 
-/// Indices closer than this are one.
+/// Indices that differ by less count as equal.
 const SAME: f64 = 1e-12;
 
 /// The flakes of a coating, for light inside the binder.
@@ -47,9 +49,9 @@ pub(super) struct Flakes {
 
 /// Light of a beam that flakes return.
 struct FlakeTables {
-    /// All of it, less what flat ones would return.
+    /// Directional albedo, minus that of flat flakes.
     returned: DirectionalAlbedo,
-    /// Light that returns to them from the surface above.
+    /// The same for light that the surface above reflects back to them.
     caught: DirectionalAlbedo,
 }
 
@@ -58,7 +60,7 @@ struct FlakeTables {
 pub(super) struct FlakeFractions {
     /// Reflected.
     pub(super) returned: (f64, f64),
-    /// Reflected and sent back by the surface.
+    /// Reflected by the flakes and reflected back by the surface.
     pub(super) caught: (f64, f64),
     /// Transmitted.
     pub(super) passed: (f64, f64),
@@ -98,8 +100,8 @@ impl Flakes {
         Ok(Self { kinds, transparent, tables: None })
     }
 
-    /// Tabulates what they return; the surface above sends `internal_reflectance` of a ray back to them, all of it
-    /// from the sine `edge` on.
+    /// Tabulates the directional albedo. The surface above has the given `internal_reflectance`;
+    /// from the sine `edge` on it reflects totally.
     pub(super) fn tabulate(
         &mut self,
         node: &ParameterNode,
@@ -121,7 +123,7 @@ impl Flakes {
         Ok(())
     }
 
-    /// True if light passes.
+    /// True if the flakes transmit light.
     pub(super) fn are_transparent(&self) -> bool {
         self.transparent
     }
@@ -186,7 +188,7 @@ impl Flakes {
     }
 }
 
-/// The names that the flakes' facets have in the coating.
+/// `error` with the name that a parameter of the flakes has in the coating.
 fn rename(error: ParameterError) -> ParameterError {
     let parameter = match error.parameter.strip_prefix("shadow") {
         Some(rest) => format!("flake_shadow{rest}"),

@@ -1,11 +1,11 @@
 //! Models below a coat: the same model for light that comes from inside a medium.
 //!
-//! Maxwell's equations know indices only relative to the medium of the incident light, and
-//! lengths only relative to the wavelength there. In a medium of index n a model is therefore the
-//! one with every index divided by n at the wavelength λ/n. Materials are taken at the vacuum
-//! wavelength before it is changed: what was a function of wavelength becomes a constant.
+//! Maxwell's equations contain indices only relative to the medium of the incident light, and lengths
+//! only relative to the wavelength in it. A model in a medium of index n is therefore the same model
+//! with every index divided by n, at the wavelength λ/n. Optical constants are evaluated at the
+//! vacuum wavelength before λ is changed: a function of wavelength becomes a constant.
 //!
-//! `medium_i` of a grating is the medium of the incident light: left at 1 it is the coat.
+//! `medium_i` of a grating is the medium of the incident light: if it is left at 1, it is the coat.
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.5.
 
@@ -21,7 +21,7 @@ use crate::{
     spec::{Family, ParameterKind, ParameterValue},
 };
 
-/// Classes, and all below them, that are not defined below a coat, with the reason.
+/// Classes, with all classes derived from them, that have no meaning below a coat, and the reason.
 const MEANINGLESS: &[(&str, &str)] = &[
     ("Instrument_BRDF_Model", "it describes an instrument in air"),
     ("ZernikeExpansion_BRDF_Model", "it is a fit to what was measured in air"),
@@ -35,8 +35,8 @@ const MEANINGLESS: &[(&str, &str)] = &[
 ///
 /// # Errors
 ///
-/// For what describes an instrument, a fit or a structure by a text, and for gratings with an
-/// incident medium of their own: these have no meaning inside a coat.
+/// For models of an instrument, of a fit or of a structure that is described by a text, and for
+/// gratings with an incident medium of their own: these have no meaning inside a coat.
 pub(super) fn immersed(
     name: &str,
     node: &ParameterNode,
@@ -84,7 +84,7 @@ impl ImmersionMedium {
                     }
                     ParameterValue::Index(index.clone())
                 }
-                // Functions of wavelength; those of other families are functions of an angle.
+                // These are functions of wavelength; tables of other families are functions of an angle.
                 (ParameterValue::Table(table), _) if *family == reflectance::FAMILY => {
                     ParameterValue::Table(RealFunction::constant(table.at(self.lambda)))
                 }
@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn a_model_in_a_medium_is_the_one_with_all_lengths_and_indices_in_units_of_the_medium() {
-        // In water every length counts n times: the same numbers come of thicker things in air.
+        // In water all lengths are n times as long in wavelengths: a thicker film in air is equal.
         let at = Geometry { theta_i: 0.5, theta_s: 0.9, phi_s: 0.7, rotation: 0.1 };
         let n = 1.33;
         let sphere = |node: ParameterNode, radius: f64, index: f64, density: f64| {

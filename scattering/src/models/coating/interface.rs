@@ -1,9 +1,12 @@
 //! One interface of a coating, smooth or rough, seen from the medium above it.
 //!
-//! A smooth interface lets pass what Fresnel's equations say. A rough one with the facet BRDF F
-//! returns the row e of [`DirectionalAlbedo`]; what passes is then the rest, t = (1, 0, 0, 0) − e less what
-//! the films absorb, so that no energy is lost or gained whatever the roughness. Light is taken to
-//! go on in the direction of Snell's law.
+//! A smooth interface transmits by Fresnel's equations. A rough interface with the facet BRDF F
+//! returns the row e of [`DirectionalAlbedo`]; it transmits the rest,
+//!
+//! $$ \mathbf t = (1, 0, 0, 0) - \mathbf e - \mathbf a, $$
+//!
+//! a the absorption of the films, so that no energy is lost or gained at any roughness. Transmitted
+//! light is taken to continue in the direction of Snell's law.
 
 use num_complex::Complex64;
 
@@ -31,21 +34,21 @@ pub(super) struct Interface {
     optical_thickness: f64,
 }
 
-/// The facets of a rough interface and what they return.
+/// The facets of a rough interface and their directional albedo.
 struct RoughInterface {
     facets: Box<dyn Brdf>,
     slopes: Box<dyn SlopeDistribution>,
     returned: DirectionalAlbedo,
 }
 
-/// A ray at an interface: its angle above, its azimuth in the sample.
+/// A ray at an interface: its polar angle above it and its azimuth in the sample.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InterfaceRay {
     /// sin θ.
     pub(super) sin: f64,
     /// cos θ.
     pub(super) cos: f64,
-    /// cos 2r and sin 2r of the rotation of a sample that the ray comes to as an incident beam.
+    /// cos 2r and sin 2r, r the rotation of the sample for which the ray is the incident beam.
     pub(super) turn: (f64, f64),
 }
 
@@ -65,7 +68,7 @@ impl InterfaceRay {
         Self { sin: direction.sin, cos: direction.cos, turn: (c * c - s * s, 2.0 * s * c) }
     }
 
-    /// A ray with this sine, for what does not depend on the azimuth.
+    /// A ray with this sine, for quantities that do not depend on the azimuth.
     pub(super) fn mean(sin: f64) -> Self {
         Self { sin, cos: (1.0 - sin * sin).max(0.0).sqrt(), turn: (1.0, 0.0) }
     }
@@ -76,12 +79,12 @@ impl InterfaceRay {
         Self { sin, cos: (1.0 - sin * sin).max(0.0).sqrt(), turn: self.turn }
     }
 
-    /// It as an incident beam on the sample of `at`.
+    /// The ray as an incident beam on the sample of `at`.
     pub(super) fn incidence(&self, at: &Incidence) -> Incidence {
         at.inclined((self.sin, self.cos))
     }
 
-    /// It as an exit along the azimuth of `direction`.
+    /// The ray as an exit along the azimuth of `direction`.
     pub(super) fn direction(&self, direction: &Direction) -> Direction {
         direction.inclined((self.sin, self.cos))
     }
@@ -162,7 +165,7 @@ impl Interface {
         }
     }
 
-    /// Transmittance if it were smooth.
+    /// Transmittance of the same interface without roughness.
     pub(super) fn smooth_passage(&self, sin: f64) -> TransmissionFactors {
         let ray = InterfaceRay::mean(sin);
         self.smooth(sin, ray.cos, ray.below(self.n).cos)
@@ -189,7 +192,7 @@ impl Interface {
             *x -= e;
         }
         let passage = rough.lessen(smooth, more);
-        // What is kept polarized has no U and V, so a little less of it is sure to pass.
+        // The polarized part has no U and V, so a slightly smaller part is realizable.
         let least = passage.s.min(passage.p);
         let oblique = more[2].hypot(more[3]);
         let part = if oblique < least { 1.0 - oblique / least } else { 0.0 };
@@ -197,8 +200,9 @@ impl Interface {
         InterfaceTransmission { kept, row: realizable(row) }
     }
 
-    /// Light of a ray from below with this sine on top that returns below; beyond 1 it is reflected
-    /// totally. A rough interface sends back what it lets pass less than a smooth one.
+    /// Internal reflectance for a ray from below with this sine above the interface; above 1 it is
+    /// reflected totally. A rough interface reflects more by the amount that it transmits less than a
+    /// smooth one.
     fn sent_back(&self, sin: f64, passes: impl Fn() -> TransmissionFactors) -> TransmissionFactors {
         let reflected = self.reflects_below(sin);
         if self.rough.is_none() || sin >= 1.0 {
@@ -260,7 +264,7 @@ impl RoughInterface {
         Ok(Self { facets, slopes, returned })
     }
 
-    /// `smooth` less what the facets return more than a smooth interface would.
+    /// `smooth` minus the excess of the reflectance of the facets over a smooth interface.
     fn lessen(&self, smooth: TransmissionFactors, more: [f64; 4]) -> TransmissionFactors {
         let s = (smooth.s - more[0] - more[1]).clamp(0.0, 1.0);
         let p = (smooth.p - more[0] + more[1]).clamp(0.0, 1.0);
@@ -272,7 +276,7 @@ impl RoughInterface {
 pub(super) struct InterfaceTransmission {
     /// With its polarization: s, p and their coherence.
     pub(super) kept: TransmissionFactors,
-    /// The row of all that passes of a Stokes vector.
+    /// Row of the transmitted power for a Stokes vector.
     pub(super) row: [f64; 4],
 }
 
@@ -304,8 +308,7 @@ pub(super) fn facets(
         .with("shadow", ParameterValue::Member(roughness.shadow.clone().into()))
 }
 
-/// Reflected by `brdf` below an interface, seen from above: what passes in, times F, times what
-/// passes out, over n².
+/// BRDF of `brdf` below an interface, seen from above: transmission out · F · transmission in / n².
 pub(super) fn behind(
     (out, into): (TransmissionFactors, TransmissionFactors),
     inner: Mueller,

@@ -1,18 +1,24 @@
 //! Diffuse light between a surface, transmitting flakes and a diffuse body below them.
 //!
-//! Light that came in once by a flake is diffuse in one of two spaces: going down onto the flakes
-//! with the radiance a·w, w what the surface sends back of light from below, or going up from the
-//! body with the flux b. Balance of the two, with the source s of each,
+//! Light that has entered and has met a flake is diffuse in one of two spaces. Above the flakes it
+//! goes down with the radiance a·w; w is the internal reflectance of the surface. Below them it goes
+//! up from the body with the flux b. With the source s of each space the balance is
 //!
 //! $$ \begin{pmatrix} \rho-r_w & -\tau_w \\ -\tau_w & 1/\alpha-r \end{pmatrix}
-//!    \begin{pmatrix} a \\ b \end{pmatrix} = \begin{pmatrix} s_a \\ s_b \end{pmatrix}, \qquad
-//!    \mathbf F = \frac{1}{\pi n^2}\,(l\,a + c\,b) $$
+//!    \begin{pmatrix} a \\ b \end{pmatrix} = \begin{pmatrix} s_a \\ s_b \end{pmatrix}, \qquad (1) $$
+//! $$ \mathbf F = \frac{1}{\pi n^2}\,(l\,a + c\,b) \qquad (2) $$
 //!
-//! ρ = ⟨w⟩, τ_w = ⟨wτB⟩, r_w = ⟨w F w⟩ with the flakes' transmittance τ and BRDF F, r = ⟨rB²⟩ their
-//! reflectance from below, α the albedo of the body, αB(μ) what it returns of a beam; l and c are
-//! what of a beam from outside gets into each space, c times B. The matrix is symmetric, so F obeys
-//! reciprocity. Where nothing absorbs, B is 1 and its row sums are ⟨l⟩ and ⟨c⟩, so all light comes
-//! out again.
+//! | symbol | quantity |
+//! |---|---|
+//! | ρ = ⟨w⟩ | mean internal reflectance |
+//! | τ_w = ⟨wτB⟩ | τ the transmittance of the flakes |
+//! | r_w = ⟨w F w⟩ | F the BRDF of the flakes |
+//! | r = ⟨rB²⟩ | reflectance of the flakes from below |
+//! | α, αB(μ) | albedo of the body for diffuse light and for a beam |
+//! | l, c | parts of a beam from outside that reach each space, c times B |
+//!
+//! The matrix is symmetric, so F is reciprocal. Without absorption B is 1 and the row sums of the
+//! matrix are ⟨l⟩ and ⟨c⟩, so all light leaves again.
 
 /// The means over diffuse light inside the binder.
 #[derive(Clone, Copy, Debug)]
@@ -25,11 +31,11 @@ pub(super) struct DiffuseMeans {
     pub(super) passed_down: f64,
     /// r.
     pub(super) below: f64,
-    /// ⟨l⟩ and ⟨c⟩: parts of a uniform radiance in each space that leave the coating.
+    /// ⟨l⟩ and ⟨c⟩: fractions of a uniform radiance in each space that leave the coating.
     pub(super) escapes: (f64, f64),
 }
 
-/// The inverse of the matrix: what comes out by l and l, by l and c, by c and c.
+/// Inverse of the matrix in (1): its elements for l and l, l and c, c and c.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct InterreflectionMatrix {
     pub(super) ll: f64,
@@ -43,7 +49,7 @@ const NOTHING: f64 = 1e-12;
 impl InterreflectionMatrix {
     /// Over a body of albedo `alpha`.
     ///
-    /// Errors of the means are kept on the side of loss.
+    /// Errors of the means are rounded to the side of loss, so that no energy is gained.
     pub(super) fn new(means: &DiffuseMeans, alpha: f64) -> Self {
         let tau = means.passed_down;
         let (l, c) = means.escapes;

@@ -2,7 +2,7 @@
 //!
 //! Thick means: many times the wavelength over the coherence of the light, so that light reflected
 //! at its two faces does not interfere. Films that interfere belong into `stack`. A layer of
-//! thickness 0 is not there: neither its interface nor its films are.
+//! thickness 0 is ignored with its interface and films.
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), section 1.6.
 
@@ -69,11 +69,11 @@ pub struct CoatingLayer {
     pub material: RefractiveIndex,
     /// Its thickness, µm.
     pub thickness: f64,
-    /// The rest: films and roughness of its upper face.
+    /// Node with the films and the roughness of its upper face.
     pub(super) node: ParameterNode,
 }
 
-/// All of them, in the order they are listed to users.
+/// The layer classes, in the order they are listed to users.
 pub const ALL: &[&Spec<CoatingLayer>] = &[&SPEC];
 
 impl Member for CoatingLayer {

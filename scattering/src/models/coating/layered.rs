@@ -1,31 +1,37 @@
 //! Thick clear or absorbing coats over any model.
 //!
-//! With F_j the BRDF of all below interface j as it is seen inside layer j, η = n_j/n_{j−1} and
+//! F_j is the BRDF of everything below interface j, seen inside layer j. With η = n_j/n_{j−1} and
 //! sin θ⁽ʲ⁾ = sin θ⁽ʲ⁻¹⁾/η,
 //!
 //! $$ \mathbf F_{j-1} = \mathbf S_j + \frac{1}{\eta^2}\,\mathbf T_j(\theta_s)\,A_j(\theta_s)\,
 //!    \mathbf F_j(\theta_i^{(j)},\theta_s^{(j)},\phi)\,A_j(\theta_i)\,\mathbf T_j(\theta_i),
-//!    \qquad A_j = e^{-4\pi k_j t_j/(\lambda\cos\theta^{(j)})} $$
+//!    \qquad (1) $$
+//! $$ A_j = e^{-4\pi k_j t_j/(\lambda\cos\theta^{(j)})} \qquad (2) $$
 //!
-//! S_j are the facets of a rough interface (a smooth one reflects into one direction, which is no
-//! BRDF), T_j what the interface lets pass. The model at the bottom is immersed in the last layer:
-//! every index over n, wavelength λ/n. Models without a meaning inside a medium are refused.
+//! S_j is the BRDF of the facets of a rough interface. A smooth interface reflects into one direction,
+//! which is not part of a BRDF. T_j is the transmission of the interface. The model at the bottom is
+//! immersed in the last layer: all its indices are divided by n, and so is its wavelength. Models that
+//! have no meaning inside a medium are refused.
 //!
-//! Light that goes back and forth between smooth interfaces is added up for s, p and their
-//! coherence (T_1 T_2/(1 − A R_1 R_2 A), and so on downwards). A diffuse body at the bottom
-//! (`Lambertian_BRDF_Model`, or `Diffuse_Subsurface_BRDF_Model` with its own interface) gets the
-//! factor 1/(1 − ρR), ρ the part of diffuse light that all layers send back. What rough interfaces
-//! neither let pass nor send out counts as diffuse light that reaches the body ([`EnergyCompensation`]).
-//! Without absorption coats over a white body therefore lose no light, whatever their roughness and
-//! whatever the polarization of the light.
+//! Reflections between smooth interfaces are summed as a geometric series, separately for s, p and
+//! their coherence: T_1 T_2/(1 − A R_1 R_2 A) for two interfaces, and so on downwards.
+//!
+//! A diffuse body at the bottom (`Lambertian_BRDF_Model`, or `Diffuse_Subsurface_BRDF_Model` with its
+//! own interface) gets the factor 1/(1 − ρR): R is its reflectance, ρ the fraction of diffuse light
+//! that all layers return. Light that rough interfaces neither transmit nor send out counts as
+//! diffuse light that reaches the body ([`EnergyCompensation`]). Without absorption, coats over a
+//! white body therefore lose no light, for any roughness and any polarization.
 //!
 //! `layer1` is the uppermost of `layers` layers. A layered model as `model` has its layers below
-//! these, so their number is not limited.
+//! these, so the number of layers is not limited.
 //!
-//! Left out: light that goes back and forth between a rough interface and others over a bottom that
-//! is not diffuse or between the interfaces and such a bottom, and the spread of directions by
-//! refraction at rough interfaces. Over films that absorb, rough interfaces lose what goes between
-//! them. Absorption is taken along the refracted direction of the real index.
+//! Left out:
+//! - reflections between a rough interface and other interfaces, or between interfaces and a bottom
+//!   that is not diffuse;
+//! - the spread of directions by refraction at rough interfaces;
+//! - with absorbing films, the light between rough interfaces (it is lost).
+//!
+//! Absorption is computed along the refracted direction of the real index.
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), sections 1.5 and 1.6; T. A. Germer
 //! and M. E. Nadal, Proc. SPIE 4447, 77 (2001).
@@ -90,7 +96,7 @@ const NAMES: [&str; 4] = ["layer1", "layer2", "layer3", "layer4"];
 /// Layers over a model.
 struct LayeredModel {
     common: CommonParameters,
-    /// From above.
+    /// Layers, the uppermost first.
     coats: Vec<CoatLayer>,
     bottom: LowestSurface,
 }
@@ -101,7 +107,7 @@ enum LowestSurface {
     Diffuse {
         /// R/(π(1 − ρR)).
         strength: f64,
-        /// Light that reaches it through rough interfaces.
+        /// Additional light that reaches it through rough interfaces.
         compensation: Option<EnergyCompensation>,
     },
     /// Any other model, immersed.
@@ -121,7 +127,7 @@ impl LayeredModel {
                 let rho = match &compensation {
                     None => recycled(&coats, common.lambda, Absorption::Lossy),
                     Some(compensation) => {
-                        // Absorption on the way back is that of light which is not caught.
+                        // The way back absorbs like that of light that is not compensated.
                         let clear = recycled(&coats, common.lambda, Absorption::Clear);
                         let lossy = recycled(&coats, common.lambda, Absorption::Lossy);
                         let kept = if clear > 0.0 { (lossy / clear).min(1.0) } else { 1.0 };

@@ -3,48 +3,65 @@
 //! $$ \mathbf F = \mathbf F_{surface}
 //!  + \frac{\omega_s}{n^2}\,\mathbf T_s\,\mathbf F_{flakes}\,\mathbf T_i
 //!  + \frac{\omega_d\,\alpha}{\pi n^2(1-\rho\alpha)}\,\mathbf t_s\otimes\mathbf t_i
-//!  + \frac{\omega_s}{\pi n^2}\sum_{a,b\in\{l,c\}} G_{ab}\,\mathbf a_s\otimes\mathbf b_i $$
+//!  + \frac{\omega_s}{\pi n^2}\sum_{a,b\in\{l,c\}} G_{ab}\,\mathbf a_s\otimes\mathbf b_i
+//!  \qquad (1) $$
 //!
-//! F_surface: shadowed facets of the coat (`surface_sdf`, `surface_shadow`, `overcoat`,
-//! `overcoat_films`). F_flakes: shadowed facets inside the binder (`sdf`, `stack`, `substrate`,
-//! `flake_shadow`) at the angles sin θ' = sin θ/n. The body returns the part α of diffuse light and
-//! αB(cos θ') of a beam, by its particles over `backing`, and depolarizes; its light comes through
-//! the gaps between flakes or through flakes.
+//! The four terms are:
 //!
-//! τ = `flake_density` · `flake_area` · `thickness` is the depth of coverage. Where light goes in
-//! and out through gaps that are the same with the probability c (`correlation`),
-//! ω_s = (1 − e^{−(2−c)τ})/(2 − c) and ω_d = e^{−(2−c)τ}. For c < 1 their sum is below 1: light
-//! caught between flakes is lost. c = 1 is right for flakes much wider than the coat is thick.
-//! A binder that absorbs (k of `overcoat`, κ = 4πk/λ, L = `thickness`) adds
-//! κL(1/cos θ_i' + 1/cos θ_s') to the exponent: with E the sum of both, ω_d = e^{−E} and
-//! ω_s = τ(1 − e^{−E})/E; diffuse light crosses it up to the flakes' mean depth or the body.
+//! 1. F_surface, the shadowed facets of the surface (`surface_sdf`, `surface_shadow`, `overcoat`,
+//!    `overcoat_films`).
+//! 2. One reflection by a flake. F_flakes are shadowed facets inside the binder (`sdf`, `stack`,
+//!    `substrate`, `flake_shadow`) at the angles sin θ' = sin θ/n; n is the index of the binder.
+//! 3. Light that reaches the body through gaps between the flakes. The body is a slab of particles
+//!    over `backing`. It depolarizes, returns the fraction α of diffuse light and the fraction
+//!    αB(cos θ') of a beam.
+//! 4. Light that is reflected by flakes more than once or passes through them
+//!    ([`InterreflectionMatrix`] has G).
 //!
-//! t is the row of what the rough surface lets pass: what comes of every polarization, less what
-//! the facets return; times B. T has the same intensities of s and p. ρ = ⟨wB²⟩, w what the surface
-//! sends back of light from below; without absorption B is 1 and ρ = 1 − ∫t₀ sin 2θ dθ/n². Then surface and
-//! body return exactly all light if the body is white. c is what of t passes the flakes, l what
-//! they reflect and the surface sends back to them; [`InterreflectionMatrix`] has G. `exchange` = 0 leaves l
-//! out: flakes are then seen as those of `Shadowed_Subsurface_Facet_BRDF_Model`. With `exchange`
-//! = 1 and c = 1, transparent flakes that do not absorb over a white body return all light too.
-//! Because flakes reflect and transmit at most 1 together, the whole is at most ω_s + ω_d ≤ 1 of
-//! what enters. This holds for facets that return no more than 1: Gaussian slopes with the Sancer
-//! function.
+//! Coverage. τ = `flake_density` · `flake_area` · `thickness` is the mean number of flakes above a
+//! point of the body. c = `correlation` is the probability that light leaves through the gap by
+//! which it entered; c = 1 holds for flakes that are much wider than the coat is thick. With the
+//! absorption κ = 4πk/λ of the binder (k of `overcoat`) and L = `thickness`,
 //!
-//! Limits, noted where they are passed: particles fill at most a tenth of the volume (they are
-//! taken to scatter independently); flakes of side √A and slope σ have the room N A (t + σ√A) ≤ 1
-//! to tilt; what is lost between flakes, 1 − ω_s − ω_d, is at most 0.05.
+//! $$ E = (2-c)\tau + \kappa L\left(\frac1{\cos\theta_i'}+\frac1{\cos\theta_s'}\right), \qquad
+//!    \omega_d = e^{-E}, \qquad \omega_s = \tau\,\frac{1-e^{-E}}{E} \qquad (2) $$
 //!
-//! Left out: light between flakes, what the body does to a beam beyond that (its light leaves as
-//! if diffuse light had entered), refraction of the light of
-//! flakes and body into other directions by a rough surface.
+//! For c < 1 and κ = 0 the sum ω_s + ω_d is below 1: the rest is light that is lost between flakes.
+//! Diffuse light is absorbed up to the mean depth of the flakes, or down to the body.
 //!
-//! `printed` = 1 takes the body as the paper prints it (equation 9), ω_d α/(4π)·(T_s ± T_p)(T_s ±
-//! T_p) of a smooth surface: without the light that goes round, too bright for coloured bodies.
-//! `printed` = 2 weights the flakes by e^{−τ} as well (equation 11), the part that they do not
-//! meet. `printed_surface` = 1 takes the facets of the surface as equations 4 to 6 print them, with
-//! the Jones matrix transposed: right in the plane of incidence, the reversed path outside of it.
-//! `printed_flakes` = 1 takes equation 8: the transposed Jones matrix, n² in place of its η²,
-//! (1 + ζ')² for (1 + ζ'²)²; brighter by n² and more. Energy is not kept in any of these.
+//! Transmission of the surface. T has the intensities of s and p and their coherence. t = B · (1 − e)
+//! is a row of a Mueller matrix, e the row that the facets return
+//! ([`DirectionalAlbedo`](super::directional_albedo)). ρ = ⟨wB²⟩ is a mean over diffuse light, w the
+//! internal reflectance of the surface. Without absorption B = 1 and ρ = 1 − ∫ t₀ sin 2θ dθ/n²;
+//! surface and white body then return all light.
+//!
+//! Light between flakes and surface. c is the part of t that passes the flakes; l is the light that
+//! they reflect to the surface and that the surface reflects back to them. `exchange` = 0 leaves l
+//! out; flakes then look like those of `Shadowed_Subsurface_Facet_BRDF_Model`. With `exchange` = 1
+//! and c = 1, transparent flakes without absorption over a white body return all light.
+//!
+//! Energy. Flakes reflect and transmit together at most 1, so the total is at most ω_s + ω_d ≤ 1 of
+//! the light that enters. This holds for facets that return at most 1: Gaussian slopes with the
+//! Sancer shadow function.
+//!
+//! Limits; a notice is given where one is exceeded:
+//! - particles fill at most a tenth of the volume (they are taken to scatter independently);
+//! - flakes of side √A and slope σ have room to tilt: N A (t + σ√A) ≤ 1, t the thickness of the films;
+//! - the light lost between flakes, 1 − ω_s − ω_d, is at most 0.05.
+//!
+//! Left out: reflections from flake to flake; the directions in which the body returns a beam, beyond
+//! B; refraction of the light of flakes and body into other directions by a rough surface.
+//!
+//! The parameters `printed…` reproduce the equations of the paper as they are printed. None of these
+//! forms conserves energy:
+//! - `printed` = 1: the body by equation 9, ω_d α/(4π)·(T_s ± T_p)(T_s ± T_p) of a smooth surface,
+//!   without internal reflection; too bright for coloured bodies.
+//! - `printed` = 2: in addition the flakes are weighted by e^{−τ} (equation 11), the fraction of
+//!   light that meets no flake.
+//! - `printed_surface` = 1: the surface by equations 4 to 6, with the transposed Jones matrix; right
+//!   in the plane of incidence, the reversed path outside of it.
+//! - `printed_flakes` = 1: the flakes by equation 8, with the transposed Jones matrix, n² instead of
+//!   its η², and (1 + ζ')² instead of (1 + ζ'²)²; brighter by n² and more.
 //!
 //! M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969); T. A. Germer and M. E. Nadal,
 //! Proc. SPIE 4447, 77 (2001); L. B. Wolff, JOSA A 11, 2956 (1994).
@@ -93,11 +110,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     build: |node| Ok(Box::new(PigmentedCoating::read(node)?)),
 };
 
-/// Spheres that fill more of the volume do not scatter independently: they are closer than about
-/// a radius then.
+/// Largest volume fraction of particles that scatter independently: denser ones are closer than
+/// about a radius.
 const INDEPENDENT: f64 = 0.1;
 
-/// Light lost between flakes above which a notice is given.
+/// Fraction of light lost between flakes above which a notice is given.
 const LOST: f64 = 0.05;
 
 /// A pigmented coating.
@@ -108,11 +125,11 @@ struct PigmentedCoating {
     flakes: Flakes,
     cover: FlakeCover,
     slab: DiffuseSlab,
-    /// Strength of the body seen through gaps.
+    /// Factor of t ⊗ t in the third term of (1).
     gaps: f64,
-    /// Strengths of what goes by flakes other than by one reflection.
+    /// Factors of the fourth term of (1).
     through: InterreflectionMatrix,
-    /// True if light between flakes and surface is taken in.
+    /// True if light between flakes and surface is included (`exchange`).
     exchange: bool,
     printed: PublishedForm,
 }
@@ -157,7 +174,7 @@ impl PigmentedCoating {
         Ok(coating)
     }
 
-    /// Quantities that are the same for all directions.
+    /// Computes the quantities that are the same for all directions.
     fn fill(&mut self, node: &ParameterNode) -> Result<(), ParameterError> {
         self.slab = body::read(node, self.common.lambda, self.n)?;
         let alpha = self.slab.reflectance;
@@ -218,6 +235,7 @@ impl PigmentedCoating {
         Ok(())
     }
 
+    /// The third term of (1): light of the body through gaps between flakes.
     fn body(&self, out: &SurfaceRay, into: &SurfaceRay) -> Mueller {
         if self.printed.body {
             let row = |side: &SurfaceRay| self.surface.smooth_passage(side.outside.sin).row();
@@ -230,7 +248,7 @@ impl PigmentedCoating {
         depolarized(self.gaps, row(out), row(into))
     }
 
-    /// Fraction of a ray that reaches the body, times the fraction that returns to a beam at this angle.
+    /// Transmittance from the surface to the body, times B at this angle.
     fn to_body(&self, inside: &InterfaceRay) -> f64 {
         self.cover.left(1.0, inside.cos) * self.slab.shape(inside.cos)
     }
@@ -252,7 +270,7 @@ impl PigmentedCoating {
         (realizable(l), realizable(c))
     }
 
-    /// Light that went by flakes other than by one reflection.
+    /// The fourth term of (1): several reflections by flakes, or transmission through them.
     fn through(&self, out: &SurfaceRay, into: &SurfaceRay) -> Mueller {
         let ((l_s, c_s), (l_i, c_i)) = (self.spaces(out), self.spaces(into));
         let InterreflectionMatrix { ll, lc, cc } = self.through;
@@ -265,7 +283,7 @@ impl PigmentedCoating {
         sum
     }
 
-    /// One reflection by flakes.
+    /// The second term of (1): one reflection by a flake.
     fn by_flakes(
         &self,
         (into, incidence): (&SurfaceRay, &Incidence),
@@ -286,7 +304,7 @@ impl PigmentedCoating {
     }
 }
 
-/// A ray, outside and inside, and what of it crosses the surface.
+/// A ray outside and inside of the coat, and its transmission through the surface.
 struct SurfaceRay {
     outside: InterfaceRay,
     inside: InterfaceRay,
@@ -302,7 +320,7 @@ fn switch(node: &ParameterNode, name: &str) -> Result<bool, ParameterError> {
     }
 }
 
-/// The names that the facets of the surface have in the coating.
+/// `error` with the name that a parameter of the facets has in the coating.
 fn rename(error: ParameterError) -> ParameterError {
     let own = ["sdf", "shadow"].iter().any(|name| error.parameter.starts_with(name));
     let parameter = if own { format!("surface_{}", error.parameter) } else { error.parameter };

@@ -1,9 +1,8 @@
 //! Transmission and reflection of light by parallel interfaces.
 //!
-//! The planes of s and p are those of every interface, so all matrices have the form
-//! M(diag(t_s, t_p)) or are sums of such: the intensities of s and p and the product
-//! c = t_p t_s* multiply one by one. The series of reflections between two interfaces is a
-//! geometric series of each of the three.
+//! All interfaces have the same s and p directions, so every matrix has the form M(diag(t_s, t_p)) or
+//! is a sum of such matrices. The intensities of s and p and the product c = t_p t_s* are each
+//! multiplied separately. Reflections between two interfaces are a geometric series of each.
 
 use num_complex::Complex64;
 
@@ -26,7 +25,7 @@ impl TransmissionFactors {
     /// No light passes.
     pub(super) const NONE: Self = Self { s: 0.0, p: 0.0, c: Complex64::ZERO };
 
-    /// The passage with the amplitudes `t`, times `factor`.
+    /// The transmission with the amplitudes `t`, times `factor`.
     pub(super) fn of(t: SpAmplitudes, factor: f64) -> Self {
         Self {
             s: factor * t.s.norm_sqr(),
@@ -42,7 +41,7 @@ impl TransmissionFactors {
         Self { s, p, c }
     }
 
-    /// One passage after the other.
+    /// One transmission after the other.
     pub(super) fn then(self, next: Self) -> Self {
         Self { s: self.s * next.s, p: self.p * next.p, c: self.c * next.c }
     }
@@ -75,21 +74,21 @@ impl TransmissionFactors {
         ])
     }
 
-    /// The row `row` of what comes after it, seen from before it.
+    /// `row`, a row of a Mueller matrix, times this matrix.
     pub(super) fn before(&self, [i, q, u, v]: [f64; 4]) -> [f64; 4] {
         let (sum, difference) = (0.5 * (self.s + self.p), 0.5 * (self.s - self.p));
         let Complex64 { re, im } = self.c;
         [sum * i + difference * q, difference * i + sum * q, re * u + im * v, re * v - im * u]
     }
 
-    /// First row of the matrix: what passes of the incident Stokes vector.
+    /// First row of the matrix: the transmitted power for an incident Stokes vector.
     pub(super) fn row(&self) -> [f64; 4] {
         [0.5 * (self.s + self.p), 0.5 * (self.s - self.p), 0.0, 0.0]
     }
 }
 
-/// strength · u ⊗ t: complete depolarization between what enters by `entering` and what leaves
-/// by `leaving`, both given as what passes of a beam from outside.
+/// strength · u ⊗ t: complete depolarization between `entering` and `leaving`, both given as rows
+/// for a beam from outside.
 pub(super) fn depolarized(strength: f64, leaving: [f64; 4], entering: [f64; 4]) -> Mueller {
     // The reversed beam has the opposite U.
     let [i, q, u, v] = leaving.map(|x| strength * x);

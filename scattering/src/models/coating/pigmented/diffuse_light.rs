@@ -11,7 +11,7 @@ use super::super::{
 };
 use crate::special::gauss;
 
-/// Nodes of the integrals over the surface.
+/// Nodes of the integrals over the polar angle.
 const NODES: usize = 96;
 
 /// The parts of a coating that diffuse light meets.
@@ -32,7 +32,7 @@ impl DiffuseLight<'_> {
             let back = self.surface.mean_sent_back(ray.sin * self.n);
             back.scaled(self.cover.left(2.0 * level, ray.cos))
         };
-        // Ways between flakes and body, once or down and up again.
+        // Transmittance between flakes and body: 1 way, or 2 ways (down and up again).
         let below = |ray: &InterfaceRay, ways: i32| {
             let left = self.cover.left(f64::from(ways) * (1.0 - level), ray.cos);
             left * self.slab.shape(ray.cos).powi(ways)
@@ -72,8 +72,8 @@ impl DiffuseLight<'_> {
         self.surface.mean_sent_back(inside.sin * self.n).row()[0]
     }
 
-    /// The mean ∫f sin 2θ dθ over diffuse light outside, over n²: what of diffuse light inside
-    /// gets out where f passes from outside.
+    /// ∫ f sin 2θ dθ/n² over the angles outside: the part of diffuse light inside that leaves the
+    /// coat, for f the transmittance from outside.
     pub(super) fn escaping(&self, f: impl Fn(&InterfaceRay) -> f64) -> f64 {
         let n2 = self.n * self.n;
         gauss::integrate(NODES, 0.0, FRAC_PI_2, |t| {
@@ -81,7 +81,8 @@ impl DiffuseLight<'_> {
         }) / n2
     }
 
-    /// The mean over diffuse light inside.
+    /// ∫ f sin 2θ' dθ' over the angles inside: the mean of f over diffuse light. The integral is split
+    /// at the critical angle.
     pub(super) fn inside(&self, f: impl Fn(&InterfaceRay) -> f64) -> f64 {
         let n2 = self.n * self.n;
         let kink = n2.min(1.0);
