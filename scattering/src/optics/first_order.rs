@@ -1,14 +1,13 @@
 //! First-order scattering by a small perturbation inside a film stack, by reciprocity.
 //!
-//! The amplitude that a perturbation scatters is the bilinear form of the field that the source
-//! drives at its place and the field that a unit wave sent in from the detector would drive
-//! there. With the fields E (s) and U, W (p) of [`Films`], D = κU, σ = −1 for reflection and +1
-//! for transmission, a coupling C and a product of permittivities ε² that belong to the
-//! perturbation,
+//! The scattered amplitude is a bilinear form of two fields at the perturbation: the field of the
+//! source, and the field of a unit wave that comes from the detector. With the fields E (s) and
+//! U, W (p) of [`Films`], D = κU, σ = −1 for reflection and +1 for transmission, and the coupling C
+//! and the product of permittivities ε² of the perturbation,
 //!
 //! $$ J_{ss} = C E_i E_s \cos\varphi, \quad J_{ps} = -C W_i E_s \sin\varphi, \quad
 //!    J_{sp} = \sigma C E_i W_s \sin\varphi, \quad
-//!    J_{pp} = C \left( \frac{D_i D_s}{\varepsilon^2} + \sigma W_i W_s \cos\varphi \right) $$
+//!    J_{pp} = C \left( \frac{D_i D_s}{\varepsilon^2} + \sigma W_i W_s \cos\varphi \right) \qquad (1) $$
 //!
 //! times √(n_d/(cos θ_i cos θ_s)). n_d is 1 for reflection; for transmission it is the index of
 //! the substrate, and the wave from the detector has unit electric field there. Light from the
@@ -43,7 +42,8 @@ pub struct FirstOrder {
     turned_over: bool,
 }
 
-/// The source's fields at a perturbation, times all that does not depend on the direction.
+/// The fields of the source at a perturbation, times the factors that do not depend on the
+/// direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
     e: Complex64,

@@ -79,5 +79,5 @@ fn exponential(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> 
     if log.exp().is_finite() {
         return Ok(log.exp());
     }
-    Err(ParameterError::new(name, format!("the exponential of {log} is no coefficient")))
+    Err(ParameterError::new(name, format!("the exponential of {log} is not a coefficient")))
 }

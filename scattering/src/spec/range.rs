@@ -77,7 +77,7 @@ fn index(index: &RefractiveIndex, lambda: f64) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "({n},{k}) at {lambda} um is no index of refraction: n and k go from {LEAST_INDEX:e} to \
+        "({n},{k}) at {lambda} um is not a refractive index: n and k go from {LEAST_INDEX:e} to \
          {LARGEST_INDEX:e}, and one of them may be 0"
     ))
 }

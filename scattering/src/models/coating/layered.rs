@@ -240,6 +240,7 @@ impl Brdf for LayeredModel {
         for coat in &self.coats {
             if let Some(facets) = coat.interface.facets() {
                 let seen = facets.mueller(&ray_i.incidence(incidence), &ray_s.direction(direction));
+                // S_j of (1), seen through the layers above.
                 sum += behind((above_s.passes, above_i.passes), seen, n * n);
             }
             let (below_i, below_s) = (ray_i.below(coat.interface.n), ray_s.below(coat.interface.n));
@@ -266,6 +267,7 @@ impl Brdf for LayeredModel {
                 let mut inner = [Mueller::ZERO];
                 let to = ray_s.direction(direction);
                 model.evaluate(&ray_i.incidence(incidence), &[to], Basis::Psps, &mut inner);
+                // The second term of (1), for all layers at once.
                 sum += behind((above_s.passes, above_i.passes), inner[0], n * n);
             }
         }

@@ -1,17 +1,20 @@
-//! Diffuse body under a smooth interface, with the light that the interface sends back into it.
+//! Diffuse body under a smooth interface, with internal reflection at the interface.
 //!
 //! $$ \mathbf{F} = \frac{x(\theta_i)\,x(\theta_s)}{n^2 (1 - \rho R)}\,
 //!    \mathbf{T}(\theta_s)\,\mathrm{diag}(R/\pi, 0, 0, 0)\,\mathbf{T}(\theta_i), \qquad
-//!    x(\theta) = \frac{\sqrt{n^2 - \sin^2\theta}}{\cos\theta} $$
+//!    x(\theta) = \frac{\sqrt{n^2 - \sin^2\theta}}{\cos\theta} \qquad (1) $$
 //!
 //! R is the reflectance of the body inside the medium of index n (`substrate` without its k), T
 //! the Mueller matrix of the amplitudes t12 of the filmed interface, and ρ the reflectance of the
-//! interface for diffuse light from inside, ∫ ½(|r_s|² + |r_p|²) sin 2θ' dθ'.
+//! interface for diffuse light from inside,
 //!
-//! With κ = n sin θ' the integral is taken where its integrand is smooth: κ = sin θ up to the
-//! critical angle and κ² = 1 + (n² − 1) sin² ψ beyond. For transparent films ρ = 1 − T/n², T the
-//! transmittance of diffuse light from outside: nothing is lost. `--compat` takes 451 rectangles
-//! of 0.2°, and beyond the critical angle the growing wave outside absorbing films.
+//! $$ \rho = \int_0^{\pi/2} \tfrac12 (|r_s|^2 + |r_p|^2) \sin 2\theta'\, d\theta' \qquad (2) $$
+//!
+//! With κ = n sin θ' the integral is split at the critical angle, so that its integrand is smooth:
+//! κ = sin θ below it and κ² = 1 + (n² − 1) sin² ψ beyond. For transparent films ρ = 1 − T/n², T the
+//! transmittance of diffuse light from outside: no light is lost. With `--compat` the integral is a
+//! sum of 451 rectangles of 0.2°, and beyond the critical angle it has the growing wave outside
+//! absorbing films.
 //!
 //! L. B. Wolff, JOSA A 11, 2956 (1994).
 
@@ -63,6 +66,7 @@ impl DiffuseSubsurface {
         let films = interface(node, &common, n.into())?;
         let body = reflectance::read(node, "reflectance", common.lambda)?;
         let rho = recycled(node, &common, &films)?;
+        // The factor of x T x T in (1).
         let strength = FRAC_1_PI * body / (n * n * (1.0 - rho * body));
         Ok(Self { common, films, n2: n * n, strength })
     }
@@ -114,7 +118,7 @@ fn recycled(
         let films = films.clone();
         return Ok(rectangles(&if growing { films.with_growing_branch() } else { films }));
     }
-    // Interference fringes are followed with ten nodes for each half wave of optical thickness.
+    // Ten nodes for each half wave of optical thickness resolve the interference fringes.
     let thickness: f64 = stack.iter().map(|film| film.0.norm() * film.1).sum();
     let nodes = 64 + (20.0 * thickness / common.lambda).min(4000.0) as usize;
     Ok(integral(films, nodes))
@@ -126,7 +130,7 @@ fn reflected(films: &Films, kappa: f64) -> f64 {
     0.5 * (r.s.norm_sqr() + r.p.norm_sqr())
 }
 
-/// ρ with `nodes` nodes on each side of the critical angle.
+/// ρ of (2) with `nodes` nodes on each side of the critical angle.
 fn integral(films: &Films, nodes: usize) -> f64 {
     let n = films.substrate().re;
     let half_space = |kappa: &dyn Fn(f64) -> f64| {
@@ -142,7 +146,7 @@ fn integral(films: &Films, nodes: usize) -> f64 {
         / (n * n)
 }
 
-/// ρ by rectangles of 0.2°.
+/// ρ of (2) by rectangles of 0.2°.
 fn rectangles(films: &Films) -> f64 {
     let n = films.substrate().re;
     let (mut sum, mut weights) = (0.0, 0.0);

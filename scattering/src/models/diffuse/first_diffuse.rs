@@ -3,14 +3,18 @@
 //! $$ \mathbf{F} = \mathbf{D}_s \left[ \frac{1}{n^2}\,
 //!    \frac{\kappa_s}{(\kappa_h + \kappa_a + \kappa_s)(\mu_i + \mu_s)}\,
 //!    \mathbf{T}_s \mathbf{R}_{out} \mathbf{P}(\Theta) \mathbf{R}_{in} \mathbf{T}_i
-//!    \right] \mathbf{D}_i $$
+//!    \right] \mathbf{D}_i \qquad (1) $$
 //!
 //! μ = √(1 − sin²θ/n²) are the cosines inside, T = (nμ/cos θ) M(t12) the transmittances of the
-//! filmed interface, κ_h = 4πk/λ the absorption of the host, κ_a and κ_s the coefficients of
-//! absorption and scattering that the phase matrix P brings along. R turn Stokes vectors into and
-//! out of the scattering plane. D_i = diag(1, u, u, v) with u = 1 − d_l μ_s/(μ_i + μ_s) and
-//! v = 1 − d_c μ_s/(μ_i + μ_s) lets the light lose its polarization on the way in, D_s with μ_i in
-//! the numerators on the way out; d_l (`depoll`) and d_c (`depolc`) lie between 0 and 1.
+//! filmed interface, κ_h = 4πk/λ the absorption coefficient of the host, κ_a and κ_s the coefficients
+//! of absorption and scattering of the phase matrix P. R rotate Stokes vectors into and out of the
+//! scattering plane. D_i describes depolarization on the way in,
+//!
+//! $$ \mathbf D_i = \mathrm{diag}(1, u, u, v), \qquad u = 1 - \frac{d_l \mu_s}{\mu_i + \mu_s}, \qquad
+//!    v = 1 - \frac{d_c \mu_s}{\mu_i + \mu_s} \qquad (2) $$
+//!
+//! and D_s the same on the way out, with μ_i in the numerators; d_l (`depoll`) and d_c (`depolc`) lie
+//! between 0 and 1.
 //!
 //! S. Chandrasekhar, *Radiative Transfer* (Dover, 1960), §§20, 47.
 
@@ -83,7 +87,7 @@ impl FirstDiffuse {
             common,
             films,
             n,
-            // Without particles nothing is scattered, 0/0 if the host is clear too.
+            // Without particles nothing is scattered; in a clear host the quotient would be 0/0.
             albedo: if phase.scattering() > 0.0 {
                 phase.scattering() / (total * n * n)
             } else {
@@ -122,12 +126,13 @@ impl FirstDiffuse {
         let sin_s = direction.sin / self.n;
         let k_s = DVec3::new(sin_s * direction.cos_phi, sin_s * direction.sin_phi, mu_s);
         let s = if self.normal_is_y { direction.nists_s() } else { direction.s() };
+        // (1)
         let mut m = t_s * self.scattered(k_i, k_s, s) * *t_i * (self.albedo / sum);
         self.depolarize(&mut m, mu_s / sum, mu_i / sum);
         m
     }
 
-    /// D_s m D_i for the shares μ_s/(μ_i + μ_s) of D_i and μ_i/(μ_i + μ_s) of D_s.
+    /// D_s m D_i of (1) and (2); `into` is μ_s/(μ_i + μ_s), `out` is μ_i/(μ_i + μ_s).
     fn depolarize(&self, m: &mut Mueller, into: f64, out: f64) {
         if self.linear_loss == 0.0 && self.circular_loss == 0.0 {
             return;

@@ -2,19 +2,19 @@
 //!
 //! Reflection, with the facet normal n̂ along k_s − k_i and ι the angle of incidence on it:
 //!
-//! $$ \mathbf F = \frac{S(\zeta_x,\zeta_y)}{4 n_z^4\cos\theta_i\cos\theta_s}\,\mathbf M(J) $$
+//! $$ \mathbf F = \frac{S(\zeta_x,\zeta_y)}{4 n_z^4\cos\theta_i\cos\theta_s}\,\mathbf M(J) \qquad (1) $$
 //!
 //! Refraction, with n̂ along ±(k_i − m k_t), m the index of the second medium over the first, and
 //! c_i, c_t the cosines of incidence and refraction on the facet:
 //!
 //! $$ \mathbf F = \frac{S(\zeta_x,\zeta_y)}{n_z^4}\,
-//!    \frac{m^3 c_t^2}{|k_i - m k_t|^2\cos\theta_i\cos\theta_s}\,\mathbf M(J) $$
+//!    \frac{m^3 c_t^2}{|k_i - m k_t|^2\cos\theta_i\cos\theta_s}\,\mathbf M(J) \qquad (2) $$
 //!
 //! S is the density of slopes ζ = (n_x, n_y)/n_z in the frame of the sample, J the Jones matrix of
-//! the facet with its films. Shadowing and multiple reflections between facets are left out, so
-//! that light can be gained at grazing incidence.
+//! the facet with its films ([`rotation`](super::rotation)). Shadowing and multiple reflections
+//! between facets are left out, so energy can be gained at grazing incidence.
 //!
-//! NIST's library does not turn the bases of a facet that is met exactly along its normal
+//! NIST's library does not rotate the bases where light hits a facet exactly along its normal
 //! ([`Defect::FacetRetro`]) and adds a loss to light from the substrate ([`Defect::TinyLoss`]).
 //!
 //! K. E. Torrance and E. M. Sparrow, J. Opt. Soc. Am. 57, 1105 (1967); with polarization
@@ -61,9 +61,9 @@ pub(crate) struct Facet {
     pub(super) unturned: bool,
 }
 
-/// Squared sine of the local angle below which the library turns nothing, in reflection.
+/// sin² ι below which NIST's library does not rotate the bases, in reflection.
 pub(super) const UNTURNED_REFLECTION: f64 = 1e-20;
-/// The same in transmission.
+/// The same limit in transmission.
 const UNTURNED_TRANSMISSION: f64 = 1e-14;
 
 impl Facet {
@@ -112,6 +112,7 @@ impl Facet {
         let unturned = self.unturned && facet.sin2 <= UNTURNED_REFLECTION;
         let (jones, norm) = turned(incidence, direction, direction.cos, coefficients, unturned);
         let [x, y] = facet.slopes;
+        // (1)
         let weight =
             facet.weight(self.slopes.density(x, y), direction.cos * (4.0 * incidence.cos) * norm);
         (if from_below { jones.flipped() } else { jones }, weight)
@@ -124,11 +125,12 @@ impl Facet {
         let k_i = incidence.k();
         let mut k_t = direction.k();
         k_t.z = -k_t.z;
+        // n̂ = ±v/|v| with v = k_i − m k_t.
         let v = k_i - m * k_t;
         let v2 = v.length_squared();
         let normal = v * (v.z.signum() / v2.sqrt());
         let (c_i, c_t) = (-k_i.dot(normal), -k_t.dot(normal));
-        // NaN, where both rays are one in media of one index, is no facet either.
+        // v = 0 where both rays are parallel and m = 1: the cosines are NaN and there is no facet.
         let real = c_i >= 0.0 && c_t >= 0.0 && normal.z > 0.0;
         if !real {
             return None;
@@ -141,6 +143,7 @@ impl Facet {
         };
         let unturned = self.unturned && sin2 <= UNTURNED_TRANSMISSION;
         let (jones, norm) = turned(incidence, direction, k_t.z, coefficients, unturned);
+        // (2)
         let z2 = normal.z * normal.z;
         let weight = self.density(incidence, normal) * m * m * m * c_t * c_t
             / (z2 * z2 * v2 * incidence.cos * direction.cos * norm);

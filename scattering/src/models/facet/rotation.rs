@@ -1,17 +1,17 @@
-//! The Jones matrix of a tilted facet: its own s and p turned into those of the two rays.
+//! The Jones matrix of a tilted facet: rotation from its own s and p to those of the two rays.
 //!
 //! The facet's s direction is perpendicular to both rays, along w = k_o × k_i. With
 //!
 //! $$ c = w\cdot s_i,\quad d = w\cdot p_i,\quad C = w\cdot s_o,\quad D = w\cdot p_o, \qquad
-//!    c^2+d^2 = C^2+D^2 = |w|^2 $$
+//!    c^2+d^2 = C^2+D^2 = |w|^2 \qquad (1) $$
 //!
 //! $$ J = \frac{1}{|w|^2} \begin{pmatrix} C & -D \\ D & C \end{pmatrix}
 //!    \begin{pmatrix} r_s & 0 \\ 0 & r_p \end{pmatrix}
-//!    \begin{pmatrix} c & d \\ -d & c \end{pmatrix} $$
+//!    \begin{pmatrix} c & d \\ -d & c \end{pmatrix} \qquad (2) $$
 //!
-//! For reflection |w| = sin 2ι and the elements are the published q_ij/a₁. w is computed once and
-//! projected on both bases, so that its rounding near retro-reflection, where it vanishes, turns
-//! both bases alike and drops out.
+//! For reflection |w| = sin 2ι and the elements are the published q_ij/a₁. w vanishes at
+//! retro-reflection. It is computed once and projected on both bases: its rounding errors rotate
+//! both bases equally and cancel.
 //!
 //! T. A. Germer and E. Marx, Appl. Opt. 43, 1266 (2004).
 
@@ -81,6 +81,7 @@ impl<R: Real> FacetRotation<R> {
         let (si, ci) = (incidence.sin, incidence.cos);
         let (so, sin, cos) = (to.sin, to.sin_phi, to.cos_phi);
         let across = so * sin;
+        // w = k_o × k_i and its projections (1).
         let w = [-across * ci, z * si + so * cos * ci, -across * si];
         Self {
             incoming: [w[1], -across],
@@ -101,6 +102,7 @@ impl<R: Real> FacetRotation<R> {
     pub(crate) fn elements(&self, [s, p]: [Complex<R>; 2]) -> [Complex<R>; 4] {
         let [c, d] = self.incoming;
         let [cc, dd] = self.outgoing;
+        // (2)
         [
             s * (cc * c) + p * (dd * d),
             s * (cc * d) - p * (dd * c),

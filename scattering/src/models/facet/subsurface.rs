@@ -1,15 +1,15 @@
 //! Flakes, or a rough substrate, under a smooth clear coat.
 //!
-//! $$ \mathbf F = \frac{S(\zeta_x,\zeta_y)}{4 n_z^4\cos\theta_i\cos\theta_s}\,\mathbf M(J),
-//!    \qquad J = t(\theta_s)\,J_{flake}(\theta_i',\theta_s',\phi)\,t(\theta_i) $$
+//! $$ \mathbf F = \frac{S(\zeta_x,\zeta_y)}{4 n_z^4\cos\theta_i\cos\theta_s}\,\mathbf M(J), \qquad (1) $$
+//! $$ J = t(\theta_s)\,J_{flake}(\theta_i',\theta_s',\phi)\,t(\theta_i) \qquad (2) $$
 //!
-//! Primes are angles inside the coat, sin θ' = sin θ/n; n̂, its slopes and J_flake belong to them,
-//! the cosines of the prefactor are those outside. t = diag(t_s, t_p) are the coefficients from
-//! vacuum into the coat, films on the coat included; used for both crossings they carry the
-//! factors n of the radiance law. The reflection of the coat itself, light that goes back and
-//! forth between coat and flakes, what flakes transmit and shadowing are left out.
+//! Primes are angles inside the coat, sin θ' = sin θ/n. n̂, its slopes and J_flake are those inside
+//! the coat; the cosines of the prefactor are those outside. t = diag(t_s, t_p) are the transmission
+//! coefficients from vacuum into the coat with its films. They are used for both crossings and
+//! contain the factor n² of the radiance law. Left out: reflection by the coat itself, multiple
+//! reflections between coat and flakes, transmission through flakes, and shadowing.
 //!
-//! NIST's library does not turn the bases of a flake met within 10⁻⁵ rad of its normal
+//! NIST's library does not rotate the bases where light hits a flake within 10⁻⁵ rad of its normal
 //! ([`Defect::FacetRetro`]).
 //!
 //! T. A. Germer and M. E. Nadal, Proc. SPIE 4447, 77 (2001); T. A. Germer and E. Marx,
@@ -53,7 +53,7 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     build: |node| Ok(Box::new(SubsurfaceFacet::read(node)?)),
 };
 
-/// Squared sine of the local angle below which the library turns nothing.
+/// sin² ι below which NIST's library does not rotate the bases.
 const UNTURNED: f64 = 1e-10;
 
 /// Flakes under a clear coat.
@@ -99,7 +99,7 @@ impl SubsurfaceFacet {
         &*self.slopes
     }
 
-    /// The rays that belong to these outside the coat.
+    /// The refracted rays inside the coat.
     pub(super) fn inside(&self, incidence: &Incidence, direction: &Direction) -> InternalRays {
         let (sin_i, sin_s) = (incidence.sin / self.coat, direction.sin / self.coat);
         InternalRays {
@@ -117,6 +117,7 @@ impl SubsurfaceFacet {
         let unturned = self.unturned && facet.sin2 <= UNTURNED;
         let (jones, norm) = turned(incidence, direction, direction.cos, coefficients, unturned);
         let [x, y] = facet.slopes;
+        // The prefactor of (1) without its cosines.
         (jones, facet.weight(self.slopes.density(x, y), norm))
     }
 

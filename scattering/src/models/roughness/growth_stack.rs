@@ -1,18 +1,18 @@
-//! A stack of films grown one on the other: each film repeats the roughness below it, smoothed,
-//! and adds its own.
+//! A stack of films grown one on the other: each film smooths the roughness below it and adds
+//! its own.
 //!
-//! A film of thickness t hands on the profile below it with the factor
+//! A film of thickness t replicates the profile below it with the factor
 //!
-//! $$ a = e^{-g t}, \quad g = [4\pi^2 (f_x^2 + f_y^2)]^{p/2}\, \ell^{\,p-1} $$
+//! $$ a = e^{-g t}, \quad g = [4\pi^2 (f_x^2 + f_y^2)]^{p/2}\, \ell^{\,p-1} \qquad (1) $$
 //!
 //! (ℓ `relaxation`, p `exponent`) and adds independent roughness with the spectrum
 //! I(1 − a²), I `intrinsic`. The substrate has the spectrum `psd`. The profile that starts at
 //! interface m therefore scatters with the amplitude
 //!
-//! $$ \mathbf{K}_L = \mathbf{J}_L, \quad \mathbf{K}_m = \mathbf{J}_m + a_m \mathbf{K}_{m+1} $$
+//! $$ \mathbf{K}_L = \mathbf{J}_L, \quad \mathbf{K}_m = \mathbf{J}_m + a_m \mathbf{K}_{m+1} \qquad (2) $$
 //!
 //! $$ \mathbf{F} = \mathrm{PSD}\,\mathbf{M}(\mathbf{K}_0)
-//!    + \sum_{m=1}^{L} I (1 - a_{m-1}^2)\,\mathbf{M}(\mathbf{K}_m) $$
+//!    + \sum_{m=1}^{L} I (1 - a_{m-1}^2)\,\mathbf{M}(\mathbf{K}_m) \qquad (3) $$
 //!
 //! where film m lies between the interfaces m and m + 1, and J_m are the first-order amplitudes
 //! of the interfaces (`interfaces.rs`).
@@ -69,7 +69,7 @@ const OWN: &[Parameter] = &[
         "intrinsic",
         &psd::FAMILY,
         "ABC_PSD_Function",
-        "Spectrum that an infinitely thick film has of its own",
+        "Spectrum of the intrinsic roughness of an infinitely thick film",
     ),
 ];
 
@@ -78,7 +78,7 @@ pub struct GrowthStack {
     rough: RoughSurface,
     interfaces: StackContrast,
     intrinsic: Box<dyn Psd>,
-    /// The one next to the substrate first, µm.
+    /// Thicknesses of the films, the one next to the substrate first, µm.
     thicknesses: Vec<f64>,
     /// ℓ^(p−1).
     strength: f64,
@@ -91,11 +91,13 @@ impl GrowthStack {
         let (substrate, intrinsic) =
             (self.rough.psd.density(fx, fy), self.intrinsic.density(fx, fy));
         let squared = 4.0 * PI * PI * (fx * fx + fy * fy);
+        // (1)
         let g = squared.powf(self.half_exponent) * self.strength;
         let mut above = jones[jones.len() - 1];
         let mut sum = Mueller::ZERO;
         for (j, thickness) in jones.iter().zip(&self.thicknesses).rev() {
             let a = (-g * thickness).exp();
+            // A term of (3), then (2).
             sum += above.mueller() * (intrinsic * (1.0 - a * a));
             above = *j + above.scaled(a);
         }

@@ -3,27 +3,27 @@
 //! Reflection, with ε = n² of the substrate and q = √(ε − sin²θ):
 //!
 //! $$ \mathbf{J} = \frac{4\pi}{\lambda^2} \sqrt{\cos\theta_i \cos\theta_s\,\mathrm{PSD}}\;
-//!    (\varepsilon - 1)\, \mathbf{Q} $$
+//!    (\varepsilon - 1)\, \mathbf{Q} \qquad (1) $$
 //!
 //! $$ Q_{ss} = \frac{\cos\varphi}{(c_i + q_i)(c_s + q_s)}, \quad
 //!    Q_{pp} = \frac{\varepsilon \sin\theta_i \sin\theta_s - q_i q_s \cos\varphi}
-//!             {(\varepsilon c_i + q_i)(\varepsilon c_s + q_s)} $$
+//!             {(\varepsilon c_i + q_i)(\varepsilon c_s + q_s)} \qquad (2) $$
 //!
 //! $$ Q_{ps} = \frac{-q_i \sin\varphi}{(\varepsilon c_i + q_i)(c_s + q_s)}, \quad
-//!    Q_{sp} = \frac{-q_s \sin\varphi}{(c_i + q_i)(\varepsilon c_s + q_s)} $$
+//!    Q_{sp} = \frac{-q_s \sin\varphi}{(c_i + q_i)(\varepsilon c_s + q_s)} \qquad (3) $$
 //!
 //! Transmission, with N = √ε, κ = N sin θ_s, A = √(ε − sin²θ_i) or √(ε − κ²), B = cos θ_i or
 //! √(1 − κ²):
 //!
 //! $$ \mathbf{J} = \frac{4\pi}{\lambda^2} N \sqrt{A_s B_i\,\mathrm{PSD}}\;
-//!    (1 - \varepsilon)\, \mathbf{Q} $$
+//!    (1 - \varepsilon)\, \mathbf{Q} \qquad (4) $$
 //!
 //! $$ Q_{ss} = \frac{\cos\varphi}{(A_i + B_i)(A_s + B_s)}, \quad
 //!    Q_{pp} = \frac{N (\kappa \sin\theta_i + A_i B_s \cos\varphi)}
-//!             {(A_i + \varepsilon B_i)(A_s + \varepsilon B_s)} $$
+//!             {(A_i + \varepsilon B_i)(A_s + \varepsilon B_s)} \qquad (5) $$
 //!
 //! $$ Q_{ps} = \frac{-A_i \sin\varphi}{(A_i + \varepsilon B_i)(A_s + B_s)}, \quad
-//!    Q_{sp} = \frac{N B_s \sin\varphi}{(A_i + B_i)(A_s + \varepsilon B_s)} $$
+//!    Q_{sp} = \frac{N B_s \sin\varphi}{(A_i + B_i)(A_s + \varepsilon B_s)} \qquad (6) $$
 //!
 //! From inside the substrate ε becomes 1/n², λ becomes λ/n, and the off-diagonal elements change
 //! sign. NIST's library takes B_s = −i√(κ² − 1) beyond the critical angle of type 1
@@ -93,13 +93,14 @@ pub struct Microroughness {
     growing: bool,
 }
 
-/// The half of the amplitudes that belongs to the incident beam.
+/// The factors of the amplitudes that depend on the incident beam alone.
 #[derive(Clone, Copy)]
 struct IncidentFactors {
     /// q_i or A_i.
     q: Complex64,
-    /// All that does not depend on the direction, over (c_i + q_i) and (εc_i + q_i).
+    /// The prefactor of (1) or (4) without √cos θ_s or √A_s, over (c_i + q_i) or (A_i + B_i).
     s: Complex64,
+    /// The same over (εc_i + q_i) or (A_i + εB_i).
     p: Complex64,
 }
 
@@ -179,6 +180,7 @@ impl Microroughness {
         let p = Complex::fraction(factor, q + Complex { re: to.cos * re, im: to.cos * im });
         let sines = to.sin * incidence.sin;
         let along = Complex { re: sines * re, im: sines * im } - q.times(beam.q) * to.cos_phi;
+        // Q_ss, Q_ps, Q_sp, Q_pp of (2) and (3), with the prefactor of (1).
         [
             s.times(beam.s) * to.cos_phi,
             s.times(beam.p * beam.q) * -to.sin_phi,
@@ -205,6 +207,7 @@ impl Microroughness {
         let s = Complex::fraction(factor, b + a);
         let p = Complex::fraction(factor, b.times(epsilon) + a);
         let along = b.times(beam.q) * to.cos_phi + kappa * incidence.sin;
+        // Q_ss, Q_ps, Q_sp, Q_pp of (5) and (6), with the prefactor of (4).
         [
             s.times(beam.s) * to.cos_phi,
             s.times(beam.p * beam.q) * -to.sin_phi,
