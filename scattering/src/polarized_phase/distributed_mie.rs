@@ -107,7 +107,8 @@ fn ladder(
     let [start, end, step] =
         ["integralStart", "integralEnd", "integralStep"].map(|name| node.number(name));
     if !size::is_ladder(start, end, step) {
-        let problem = format!("{start} um to {end} um in steps of {step} is not a range of diameters");
+        let problem =
+            format!("{start} um to {end} um in steps of {step} is not a range of diameters");
         return Err(ParameterError::new("integralStep", problem));
     }
     let rungs = || size::ladder(start, end, step);

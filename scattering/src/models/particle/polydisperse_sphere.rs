@@ -157,7 +157,8 @@ fn ladder(
 ) -> Result<impl Iterator<Item = (f64, f64)> + use<>, ParameterError> {
     let [start, end, step] = ["Dstart", "Dend", "Dstep"].map(|name| node.number(name));
     if !size::is_ladder(start, end, step) {
-        let problem = format!("{start} um to {end} um in steps of {step} is not a range of diameters");
+        let problem =
+            format!("{start} um to {end} um in steps of {step} is not a range of diameters");
         return Err(ParameterError::new("Dstep", problem));
     }
     let mut total = 0;
