@@ -1,9 +1,10 @@
 //! The diffuse reflection of a stack: azimuthal modes of its BRDF at the nodes outside.
 //!
-//! R_ij = 2π f₊(μ_i, μ_j) √(μ_i w_i μ_j w_j) for light that was scattered; the mirror reflection of
-//! smooth faces, which is no BRDF, is taken off, and so is one reflection at the facets of a rough
-//! uppermost face and light scattered once, which are known without modes. Modes are solved in parallel, a fixed number at a
-//! time, until two in a row are smaller than the tolerance.
+//! R_ij = 2π f₊(μ_i, μ_j) √(μ_i w_i μ_j w_j) for scattered light. Three parts are subtracted: the mirror
+//! reflection of smooth interfaces, which is not part of a BRDF; one reflection at the facets of a
+//! rough uppermost interface; and light scattered once. The last two are computed without modes.
+//! Modes are solved in parallel, a fixed number at a time, until two consecutive ones are smaller
+//! than the tolerance.
 
 use std::f64::consts::PI;
 
@@ -15,7 +16,7 @@ use super::{
     stack::TransferProblem,
 };
 
-/// Modes solved before the smallest are looked at again.
+/// Modes solved in parallel before their size is compared with the tolerance.
 const CHUNK: usize = 4;
 
 /// Modes of a diffuse BRDF, 1/sr, between nodes.
@@ -27,7 +28,7 @@ pub struct DiffuseModes {
     pub modes: Vec<RealMatrix>,
     /// Mirror reflection of each node, as a Mueller matrix.
     pub direct: Vec<RealMatrix>,
-    /// The largest element of the last mode: what the next ones may be.
+    /// The largest element of the last mode: an estimate of the modes that are left out.
     pub rest: f64,
 }
 

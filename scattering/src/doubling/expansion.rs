@@ -9,7 +9,7 @@
 //!
 //! α₄ as α₁, β₂ as β₁; α₁,₀ = 1. The forward peak beyond the order L is cut (δ–M): with
 //! f = α₁,L+1/(2L+3), α → (α − f(2l+1))/(1 − f), β → β/(1 − f), and the fraction f of the scattered
-//! light counts as not scattered.
+//! light is treated as unscattered.
 //!
 //! J. W. Hovenier, C. van der Mee and H. Domke, *Transfer of Polarized Light in Planetary
 //! Atmospheres* (Kluwer, 2004), 2.8; W. J. Wiscombe, J. Atmos. Sci. 34, 1408 (1977).
@@ -22,7 +22,7 @@ pub type PhaseElements = [f64; 6];
 
 /// The fewest points of an integral over cos Θ.
 const FEWEST: usize = 160;
-/// The most: spheres of x = 2000.
+/// The most points: enough for spheres of x = 2000.
 const MOST: usize = 10_240;
 /// Coefficients that change by less are final.
 const FINAL: f64 = 1e-13;
@@ -107,7 +107,7 @@ impl PhaseExpansion {
         Self { terms }
     }
 
-    /// The series cut after l = `top`, and the fraction f that goes straight on.
+    /// The series cut after l = `top`, and the fraction f of light that is treated as unscattered.
     pub fn truncated(&self, top: usize) -> (Self, f64) {
         let f = self.terms.get(top + 1).map_or(0.0, |term| term[0] / (2 * top + 3) as f64);
         let cut = |(l, term): (usize, &PhaseElements)| {

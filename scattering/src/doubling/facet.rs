@@ -12,7 +12,7 @@ use num_complex::Complex64;
 use super::block::Stokes4;
 use crate::Jones;
 
-/// A facet that is met closer to its normal than this has any plane as plane of incidence.
+/// sin ι below which the plane of incidence of a facet is arbitrary.
 const NORMAL: f64 = 1e-9;
 
 /// A ray with its basis.

@@ -5,16 +5,17 @@
 //! $$ K(k) = a\int S(\zeta)\frac{|k\cdot\hat n|}{n_z}(1 - M_T)\,d\zeta, \qquad
 //!    Z(k\to k') = \frac{a\,S}{4n_z^4}\,M_R, \quad \hat n\parallel k'-k $$
 //!
-//! M_R and M_T are the Mueller matrices of the plate. Light that passes a plate goes straight on
-//! and belongs to the extinction matrix. Plates are independent of each other. The scattering is
-//! scaled to what the slopes give in all, and its energy balance is closed exactly.
+//! M_R and M_T are the Mueller matrices of the plate. Light transmitted by a plate keeps its
+//! direction and is part of the extinction matrix. Plates are independent of each other. The
+//! scattering is scaled to the integral over slopes, and its energy balance is exact
+//! ([`energy_balance`]).
 
 use num_complex::Complex64;
 
 use super::{
     azimuth,
     block::{RealMatrix, Stokes4, TransferBlock},
-    books,
+    energy_balance,
     facet::{PolarizedRay, mueller, scaled},
     interface::SmoothFace,
     nodes::MediumDirections,
@@ -34,9 +35,9 @@ pub struct FlakeLayer {
     pub depth: f64,
     /// Their slopes.
     pub slopes: GaussianSlopes,
-    /// Films on the core; of a clear plate all of it.
+    /// Films on the core, or all films of a clear plate.
     pub films: SmoothFace,
-    /// Index of an opaque core; nothing for a clear plate.
+    /// Index of an opaque core; `None` for a clear plate.
     pub core: Option<Complex64>,
 }
 
@@ -104,7 +105,7 @@ impl FlakeLayer {
         }
     }
 
-    /// K of light that goes down at the cosine `mu`, and what of its I and Q is scattered in all.
+    /// K of light that goes down at the cosine `mu`, and the row (I, Q) of the scattered power.
     fn loss(&self, mu: f64, n: f64) -> (Stokes4, [f64; 2]) {
         let ray = PolarizedRay::new(-mu, (1.0, 0.0));
         let (mut extinction, mut row) = ([[0.0; 4]; 4], [0.0; 2]);
@@ -131,7 +132,7 @@ impl FlakeLayer {
     }
 }
 
-/// Closes the balance of mode 0 to the rows (I, Q) of what is scattered in all.
+/// Restores the energy balance of mode 0 for the rows (I, Q) of the scattered power.
 fn close(down: &mut RealMatrix, up: &mut RealMatrix, root: &[f64], rows: &[[f64; 2]]) {
     let block = TransferBlock::Intensity;
     let [d, u] = [&*down, &*up].map(|m| block.of_whole(m));
@@ -141,7 +142,7 @@ fn close(down: &mut RealMatrix, up: &mut RealMatrix, root: &[f64], rows: &[[f64;
     let target = |row: usize| rows[row % n / 2][row % 2] * root[row % n / 2];
     let flux: Vec<f64> = (0..2 * n).map(flux).collect();
     let target: Vec<f64> = (0..2 * n).map(target).collect();
-    books::close(&mut both, &flux, &target);
+    energy_balance::restore(&mut both, &flux, &target);
     for j in 0..n {
         for i in 0..n {
             let at = (4 * (i / 2) + i % 2, 4 * (j / 2) + j % 2);

@@ -1,16 +1,17 @@
 //! All bounces of light at a rough interface: transport in the height of the surface.
 //!
-//! On Smith's surface heights are uniform in their distribution C ∈ (0, 1). Light above meets
-//! facets like plates with one face in the depth −ln C, light below in −ln(1 − C); reflection and
-//! refraction couple both at the same C. With x = ln(C/(1 − C)) and ψ of both media together
+//! On Smith's surface the cumulative distribution C ∈ (0, 1) of heights is uniform. Light above the
+//! surface meets facets like one-sided plates in the optical depth −ln C, light below it in
+//! −ln(1 − C); reflection and refraction couple both at the same C. With x = ln(C/(1 − C)) and ψ of both media together
 //!
 //! $$ \frac{d\psi}{d(-x)} = [(1-C)\,G_a + C\,G_b]\,\psi $$
 //!
 //! G_a acts on light above, G_b on light below. Extinction over μ: above 1 + Λ down and Λ up, below
 //! Λ down and 1 + Λ up. Scattering: 2πZ q_i q_j, Z = M S/(4n_z⁴) of a reflection and
 //! Z = (n_i/n_t) M S |c_i c_t| m²/(n_z⁴|k_i − m k_t|²) of a refraction; shadowing is the transport.
-//! From x = 14 to −14 slices are exponentials of the fourth-order Magnus form, doubled and added.
-//! Kernels are scaled so that no event loses light, and the result is closed exactly.
+//! The range from x = 14 to −14 is cut into slices; each is an exponential of the fourth-order Magnus
+//! expansion, doubled and added. Kernels are scaled so that no reflection or refraction loses
+//! light, and the energy balance of the result is exact ([`energy_balance`]).
 //!
 //! E. Heitz et al., ACM Trans. Graph. 35, 58 (2016), for the transport; S. Blanes et al., Phys. Rep.
 //! 470, 151 (2009), for the Magnus expansion.
@@ -22,14 +23,14 @@ use rayon::prelude::*;
 use super::{
     azimuth,
     block::{RealMatrix, Stokes4, TransferBlock, joined, quarters, solved},
-    books,
+    energy_balance,
     facet::{PolarizedRay, mueller},
     facet_media::FacetMedia,
     operator::LayerOperator,
     scaling, slab,
 };
 
-/// The range of x on both sides: e^{−14} of the surface is beyond.
+/// Largest |x|: the fraction e^{−14} of the surface lies beyond.
 const REACH: f64 = 14.0;
 /// Slices.
 const SLICES: usize = 24;
@@ -104,7 +105,7 @@ impl<'a> HeightTransport<'a> {
         let (m, factor) = if side == side_out {
             let half = out.k - into.k;
             let size = half.length();
-            // The facet is met from above or from below.
+            // Light hits the facet from above or from below.
             let faces = if side == 0 { half.z > 0.0 } else { half.z < 0.0 };
             if !faces || size < 1e-12 {
                 return [[0.0; 4]; 4];
@@ -226,7 +227,7 @@ impl<'a> HeightTransport<'a> {
         if block == TransferBlock::Intensity {
             let flux = |row: usize| if row.is_multiple_of(s) { self.flux(row / s) } else { 0.0 };
             let flux: Vec<f64> = (0..x.nrows()).map(flux).collect();
-            books::close(&mut x, &flux, &flux);
+            energy_balance::restore(&mut x, &flux, &flux);
         }
         let [[r_down, t_up], [t_down, r_up]] = quarters(&x, above, above);
         LayerOperator { r_down, t_down, r_up, t_up }

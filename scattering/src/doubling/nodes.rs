@@ -1,8 +1,8 @@
 //! Directions that all media of a stack share: nodes in the tangential index κ = n sin θ.
 //!
-//! κ is broken at every index 1 < n_a < n_b < …; a medium of index n has all nodes with κ < n, and
-//! the same node is the same ray in every medium. Up to κ = 1 the nodes are those of Gauss and
-//! Legendre in the cosine outside; from a to b they are so in t, κ² = a² + (b² − a²) sin²t. Fresnel
+//! The range of κ is split at every index 1 < n_a < n_b < …. A medium of index n has all nodes with
+//! κ < n, and a node is the same ray in every medium. Up to κ = 1 the nodes are Gauss–Legendre nodes in
+//! the cosine outside; from a to b they are Gauss–Legendre nodes in t, κ² = a² + (b² − a²) sin²t. Fresnel
 //! coefficients and cosines are analytic in these, so that integrals converge exponentially. In a
 //! medium μ = √(n² − κ²)/n and w = κdκ/(n²μ), Σ 2μw = 1.
 

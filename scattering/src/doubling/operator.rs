@@ -1,7 +1,8 @@
 //! Reflection and transmission operators of a layer, and adding them.
 //!
-//! Light is ψ = √(μw) L/n at every node (L the radiance as a Stokes vector): then reciprocity is
-//! R = P Rᵀ P and T↓ = P T↑ᵀ P with P = diag(1, 1, −1, 1), and the law of n² is inside. For a
+//! Light is ψ = √(μw) L/n at every node, L the radiance as a Stokes vector. With this scaling
+//! reciprocity is R = P Rᵀ P and T↓ = P T↑ᵀ P, P = diag(1, 1, −1, 1), and the factor n² of the radiance
+//! law is included. For a
 //! system a above a system b
 //!
 //! $$ x = (1 - R^\downarrow_b R^\uparrow_a)^{-1} R^\downarrow_b T^\downarrow_a, \qquad
@@ -30,7 +31,7 @@ pub struct LayerOperator {
 }
 
 impl LayerOperator {
-    /// A layer that is not there, for `n` rows.
+    /// The identity: an empty layer, for `n` rows.
     pub fn nothing(n: usize) -> Self {
         Self {
             r_down: RealMatrix::zeros(n, n),
@@ -40,7 +41,7 @@ impl LayerOperator {
         }
     }
 
-    /// A face that lets nothing pass and reflects nothing, with `above` and `below` rows.
+    /// An interface that neither reflects nor transmits, with `above` and `below` rows.
     pub fn opaque(above: usize, below: usize) -> Self {
         Self {
             r_down: RealMatrix::zeros(above, above),

@@ -1,9 +1,10 @@
-//! A rough interface of Gaussian facets: one reflection or refraction, and the rest closed.
+//! A rough interface of Gaussian facets: one reflection or refraction, and a diffuse remainder.
 //!
-//! One bounce is that of [`super::facet_media`]. What the quadrature misses of narrow lobes is scaled away, so that
-//! every column returns what one bounce returns by a quadrature over slopes. Light that meets
-//! further facets goes into all directions of both sides by the rank-two form
-//! X → X + d dᵀ/(e·d), d what is missing of each column: nothing is lost, reciprocity stays.
+//! [`super::facet_media`] has the kernel of one bounce. It is scaled so that every column carries the
+//! power of one bounce by a quadrature over slopes: this removes the error of the nodes for narrow
+//! lobes. Light that meets further facets goes into all directions of both sides by the rank-two
+//! form X → X + d dᵀ/(e·d), d the power that is missing in each column. Energy and reciprocity are
+//! conserved.
 //!
 //! K. E. Torrance and E. M. Sparrow, J. Opt. Soc. Am. 57, 1105 (1967); B. Walter et al., Proc. EGSR
 //! (2007); M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969).
@@ -37,9 +38,9 @@ pub struct RoughFace {
 /// Light that meets further facets of a rough face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FacetBounces {
-    /// It leaves diffusely; see this module.
+    /// The light leaves diffusely; see this module.
     First,
-    /// It is followed; see [`super::heights`].
+    /// All bounces are computed; see [`super::heights`].
     All,
 }
 
@@ -48,7 +49,7 @@ pub enum FacetBounces {
 pub struct RoughKernel {
     /// All light, with rows 4·node + component.
     pub modes: Vec<LayerOperator>,
-    /// One reflection from above, as it was before the balance was closed.
+    /// One reflection from above, before the correction of the energy balance.
     pub first: Vec<RealMatrix>,
 }
 
@@ -68,8 +69,8 @@ impl RoughFace {
 }
 
 impl FacetMedia<'_> {
-    /// Light that one bounce returns of a unit of I at node `j` of `side`, both ways, and the row (I, Q)
-    /// of what facets that are seen absorb.
+    /// Power of one bounce, reflected and transmitted, for a unit of I at node `j` of `side`, and the
+    /// row (I, Q) of the power that visible facets absorb.
     fn budget(&self, side: usize, j: usize) -> (f64, [f64; 2]) {
         let into = self.ray(side, j, false, (1.0, 0.0));
         let mu = into.k.z.abs();

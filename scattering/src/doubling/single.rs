@@ -1,13 +1,14 @@
-//! Light that is scattered once, exact: apart from the modes, where it would need many.
+//! Light scattered once, computed exactly and apart from the azimuthal modes, of which it needs many.
 //!
-//! A slab that is reached through smooth faces sends out
+//! A slab below smooth interfaces has the BRDF
 //!
 //! $$ f = \frac{\tau_s}{n^2\tau}\,T_s\,Z\,T_i\,
-//!    \frac{1-e^{-\tau(1/\mu_i+1/\mu_s)}}{\mu_i+\mu_s} $$
+//!    \frac{1-e^{-\tau(1/\mu_i+1/\mu_s)}}{\mu_i+\mu_s} \qquad (1) $$
 //!
-//! with the cosines inside, T all that passes of a ray on its way, τ the extinction depth without
-//! the forward peak. At the nodes the modes of f with the cut phase matrix are taken off; f with
-//! the whole one and the scattering depth τ_s of all light is added for every pair of directions.
+//! with the cosines inside, T the transmission along the path of a ray, τ the extinction depth
+//! without the forward peak. The modes of f with the truncated phase matrix are subtracted at the
+//! nodes; f with the complete phase matrix and the complete scattering depth τ_s is added for every
+//! pair of directions.
 //!
 //! T. Nakajima and M. Tanaka, J. Quant. Spectrosc. Radiat. Transfer 40, 51 (1988).
 
@@ -19,7 +20,7 @@ use num_complex::Complex64;
 use super::{block::Stokes4, interface::SmoothFace, phase_table::PhaseTable};
 use crate::{Jones, Mueller};
 
-/// Directions closer than this to forward or backward have any plane as scattering plane.
+/// Sine of the scattering angle below which the scattering plane is arbitrary.
 const ALONG: f64 = 1e-9;
 
 /// A slab that is seen through smooth faces.

@@ -18,7 +18,7 @@ use super::{
     block::{
         RealMatrix, Stokes4, TransferBlock, between, identity, joined, norm, quarters, solved,
     },
-    books,
+    energy_balance,
     flakes::FlakeKernel,
     nodes::MediumDirections,
     operator::LayerOperator,
@@ -141,8 +141,8 @@ pub fn exponential(m: &RealMatrix) -> RealMatrix {
     solved(&(&even - &odd), &(&even + &odd))
 }
 
-/// Closes the energy balance of the scattering (down, up) of a medium that loses nothing: every
-/// column of I returns its own flux, those of Q nothing.
+/// Restores the energy balance of the scattering (down, up) of a lossless medium: every column of I
+/// carries its own flux, every column of Q none.
 pub fn close(
     block: TransferBlock,
     directions: &MediumDirections,
@@ -160,7 +160,7 @@ pub fn close(
         if row.is_multiple_of(2) { directions.w[node].sqrt() } else { 0.0 }
     };
     let flux: Vec<f64> = (0..2 * n).map(root).collect();
-    let missed = books::close(&mut both, &flux, &flux);
+    let missed = energy_balance::restore(&mut both, &flux, &flux);
     let [[a, _], [c, _]] = quarters(&both, n, n);
     (*down, *up) = (a, c);
     missed

@@ -1,9 +1,9 @@
 //! Gaussian slopes of facets and plates: density, shadowing, quadrature.
 //!
 //! S(ζ) = e^{−ζ²/2σ²}/(2πσ²), and for a ray Λ = ½[e^{−x²}/(√π x) − erfc x], x = cot θ/(√2 σ):
-//! 1 + Λ is the projected area of all facets that face it. Reflected light is shadowed by
-//! 1/(1 + Λ_i + Λ_o); refracted light goes on on the other side of the same facet, where the height
-//! that favours one ray is bad for the other, and has Euler's B(1 + Λ_i, 1 + Λ_t).
+//! 1 + Λ is the projected area of all facets that face the ray. The shadowing of reflected light is
+//! 1/(1 + Λ_i + Λ_o). Refracted light leaves on the other side of the same facet, where a height that
+//! exposes one ray shadows the other; its shadowing is Euler's beta function B(1 + Λ_i, 1 + Λ_t).
 //!
 //! M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969); B. Walter et al., Proc. EGSR
 //! (2007), for facets that refract; E. Heitz et al., ACM Trans. Graph. 35, 58 (2016).
@@ -14,7 +14,7 @@ use glam::DVec3;
 
 use crate::{shadow::sancer, special::gauss};
 
-/// Slopes up to so many standard deviations count: e^{−40} of the density is beyond.
+/// Largest slope in standard deviations: the density falls to e^{−40}.
 const REACH: f64 = 9.0;
 
 /// Gaussian slopes with one standard deviation along every azimuth.

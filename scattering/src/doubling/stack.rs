@@ -71,9 +71,9 @@ pub struct SlabParticles {
     pub depth: f64,
     /// Scattering over extinction.
     pub albedo: f64,
-    /// The phase matrix, as far as it is known.
+    /// Expansion of the phase matrix.
     pub series: PhaseExpansion,
-    /// All of it; nothing leaves light scattered once to the modes.
+    /// The complete phase matrix; with `None`, light scattered once is computed by modes too.
     pub whole: Option<Arc<PhaseTable>>,
 }
 
@@ -86,7 +86,7 @@ pub trait SurfaceModes: Send + Sync + fmt::Debug {
 /// The surface below all layers.
 #[derive(Clone, Debug)]
 pub enum StackBottom {
-    /// Nothing that reflects.
+    /// Black.
     Black,
     /// A Lambertian of this reflectance.
     Lambertian(f64),
@@ -180,12 +180,12 @@ impl<'a> TransferProblem<'a> {
         self.nodes.inside(1.0)
     }
 
-    /// All that comes back, the direct light too.
+    /// The complete reflection, with the direct light.
     pub fn reflection(&self, block: TransferBlock) -> RealMatrix {
         self.solve(block, LightPart::All)
     }
 
-    /// Light that comes back without having been scattered, for every node outside.
+    /// Reflection of unscattered light, for every node outside.
     pub fn direct(&self) -> Vec<RealMatrix> {
         let at = |i: usize| {
             let flakes = |kernel: &Option<FlakeKernel>| {
@@ -296,7 +296,7 @@ impl<'a> TransferProblem<'a> {
         }
     }
 
-    /// The slab of layer `j`; nothing if it is empty.
+    /// The slab of layer `j`; `None` if it is empty.
     fn slab(
         &self,
         block: TransferBlock,

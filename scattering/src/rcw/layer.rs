@@ -5,8 +5,8 @@
 //! $$ Q = \begin{pmatrix} \epsilon_{xx} - K_y\mu_{zz}^{-1}K_y & \epsilon_{xy} + K_y\mu_{zz}^{-1}K_x \\
 //! \epsilon_{xy} + K_x\mu_{zz}^{-1}K_y & \epsilon_{yy} - K_x\mu_{zz}^{-1}K_x \end{pmatrix} $$
 //!
-//! The entries are matrices; which product of Fourier series each stands for is Li's rule, and
-//! the caller's business.
+//! The entries are matrices. The caller chooses the factorization of each product of Fourier series
+//! by Li's rules.
 
 use num_complex::Complex64;
 

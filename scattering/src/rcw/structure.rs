@@ -24,7 +24,7 @@ const ACROSS: f64 = 1e-15;
 /// A periodic structure at one wavelength, prepared for any incident direction.
 #[derive(Clone, Debug)]
 pub struct PeriodicStructure {
-    /// Layers, the one that the light meets first in front.
+    /// Layers, the one on the side of the incident light first.
     pub layers: Vec<LayerOperators>,
     /// Index of the medium the light comes from; real.
     pub incident: f64,
@@ -81,7 +81,7 @@ impl PeriodicStructure {
         }
     }
 
-    /// E_x and E_y per harmonic for E_x = 1 and E_y = 1 in the zeroth, s and p by themselves.
+    /// E_x and E_y per harmonic for E_x = 1 and E_y = 1 in the zeroth, s and p separately.
     fn fields_across(&self, lateral: &[(f64, f64)], behind: bool) -> Vec<FieldMatrix> {
         let kx: Vec<f64> = lateral.iter().map(|k| k.0).collect();
         let (above, below) = (self.normal_waves(lateral, false), self.normal_waves(lateral, true));
@@ -169,7 +169,7 @@ fn unit_columns(rows: usize, at: &[usize]) -> ComplexMatrix {
 
 /// The layers added up from behind.
 struct LayerCascade {
-    /// Reflection by all of it, against the reference admittance 1.
+    /// Reflection by all layers, against the reference admittance 1.
     reflection: ComplexMatrix,
     /// Per layer, front first: downward waves behind it from those before it.
     passage: Vec<ComplexMatrix>,

@@ -1,4 +1,4 @@
-//! A smooth substrate with films: it reflects like a mirror, which is no BRDF, and scatters nothing.
+//! A smooth substrate with films: a mirror. Its BRDF is 0, because a mirror beam is not part of one.
 //!
 //! Below the layers of `Adding_Doubling_BRDF_Model` it reflects what reaches it.
 //!

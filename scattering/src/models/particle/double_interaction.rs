@@ -1,7 +1,7 @@
 //! A particle above the smooth face of a substrate.
 //!
-//! The particle scatters as in vacuum; light comes to it and leaves it straight or by way of a
-//! reflection at the (filmed) face, and the paths interfere. With h the distance of its centre,
+//! The particle scatters as in vacuum. Light reaches it and leaves it directly or after a reflection
+//! at the (filmed) face, and the four paths interfere. With h the distance of its centre,
 //! k₀ = 2π/λ and r = r12(θ) e^{2ik₀h cos θ},
 //!
 //! | type | J k₀ |
@@ -12,8 +12,8 @@
 //! | 3 | [S(k_a,k_s) + r_s S(k_a,k_s^r)] t21(θ_i) n^{−1/2} e^{ik₀h(c_a − n cos θ_i)} |
 //!
 //! where a = n sin θ_i and b = n sin θ_s are the sines outside and c their cosines; light that the
-//! face reflects totally does not reach the particle. F = N M(J)/(cos θ_i cos θ_s). The particle's
-//! own light that returns to it is neglected.
+//! face reflects totally does not reach the particle. F = N M(J)/(cos θ_i cos θ_s). Light
+//! of the particle that the face reflects back to it is neglected.
 //!
 //! K. B. Nahm and W. L. Wolfe, Appl. Opt. 26, 2995 (1987).
 
@@ -158,8 +158,7 @@ impl HalfSpace {
         })
     }
 
-    /// The paths by way of a particle, and the incidence that they belong to; nothing where no
-    /// light reaches it.
+    /// The paths by way of a particle with their incidence; `None` where no light reaches it.
     pub(super) fn paths(
         &self,
         incidence: &Incidence,

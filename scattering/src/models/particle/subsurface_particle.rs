@@ -1,8 +1,8 @@
 //! A particle in the substrate, below its smooth face.
 //!
-//! Light crosses the (filmed) face, is scattered by the particle in the medium of the substrate,
-//! and crosses the face again; light that stays inside also comes and goes by way of a reflection
-//! at the face, with the phase 2k₀nd cos θ of the detour to the depth d:
+//! Light crosses the (filmed) face, is scattered by the particle in the medium of the substrate and
+//! crosses the face again. Light inside the substrate reaches and leaves the particle also after a
+//! reflection at the face, with the phase 2k₀nd cos θ of the longer path at the depth d:
 //!
 //! | type | J k₀n |
 //! |---|---|
@@ -11,8 +11,8 @@
 //! | 2 | all four paths |
 //! | 3 | t21(θ_s) (cos θ_s/c_s' n^{−3/2}) [S(k_i,k_s') + S(k_i^r,k_s') r21(θ_i)] |
 //!
-//! F = N M(J)/(cos θ_i cos θ_s). The particle's own light that returns to it is neglected, as is
-//! the light of other particles. The surroundings of `scatterer` have to be those of the model.
+//! F = N M(J)/(cos θ_i cos θ_s). Light of the particle that the face reflects back to it is
+//! neglected, and so is the light of other particles. The surroundings of `scatterer` have to be those of the model.
 //!
 //! T. A. Germer, *Polarized light scattering by microroughness and small defects in dielectric
 //! layers*, J. Opt. Soc. Am. A 18, 1279 (2001).

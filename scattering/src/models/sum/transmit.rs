@@ -1,6 +1,6 @@
 //! Another model behind a second, smooth face of the substrate.
 //!
-//! The angles of the substrate's side become those outside that face: with sin θ' = sin θ / n and
+//! Angles on the side of the substrate are those outside the second face. With sin θ' = sin θ / n and
 //! T(θ) the Mueller matrix of the transmission coefficients of `films` from outside into the
 //! substrate,
 //!
@@ -8,8 +8,8 @@
 //!
 //! type 0: the inner model; 1: $\tau(\theta_s)\,\mathbf{F}(\theta_i, \theta_s')/n^2$; 2:
 //! $\tau(\theta_s)\,\mathbf{F}(\theta_i', \theta_s')\,\tau(\theta_i)/n^2$; 3:
-//! $\mathbf{F}(\theta_i', \theta_s)\,\tau(\theta_i)$. τ has the same value for light going out,
-//! 1/n² is the spread of solid angles there. Light that the second face reflects is lost.
+//! $\mathbf{F}(\theta_i', \theta_s)\,\tau(\theta_i)$. τ has the same value for light that leaves;
+//! 1/n² is the ratio of solid angles. Light that the second face reflects is lost.
 //!
 //! M. Born and E. Wolf, *Principles of Optics*, 7th ed. (1999), sections 1.5 and 4.8.
 
@@ -101,8 +101,8 @@ impl Transmit {
         (Incidence::new(theta, incidence.rotation()), Some(tau))
     }
 
-    /// A cone inside as it is seen outside, where its rim is no circle any more; none if it is
-    /// reflected totally.
+    /// The cone outside that contains a cone inside (its rim is no longer a circle); `None` for total
+    /// reflection.
     fn outside(&self, support: LobeSupport) -> Option<LobeSupport> {
         let (x, y) = (self.index * support.axis.x, self.index * support.axis.y);
         let cos = (1.0 - x * x - y * y).sqrt();
