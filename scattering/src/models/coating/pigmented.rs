@@ -3,8 +3,7 @@
 //! $$ \mathbf F = \mathbf F_{surface}
 //!  + \frac{\omega_s}{n^2}\,\mathbf T_s\,\mathbf F_{flakes}\,\mathbf T_i
 //!  + \frac{\omega_d\,\alpha}{\pi n^2(1-\rho\alpha)}\,\mathbf t_s\otimes\mathbf t_i
-//!  + \frac{\omega_s}{\pi n^2}\sum_{a,b\in\{l,c\}} G_{ab}\,\mathbf a_s\otimes\mathbf b_i
-//!  \qquad (1) $$
+//!  + \frac{\omega_s}{\pi n^2}\sum_{a,b\in\{l,c\}} G_{ab}\,\mathbf a_s\otimes\mathbf b_i \qquad (1) $$
 //!
 //! The four terms are:
 //!
