@@ -17,7 +17,7 @@ const SHORTEST_NM: f64 = 30.0;
 /// Longer wavelengths in nm are no light that the models are used for.
 const LONGEST_NM: f64 = 1e5;
 /// Photon energy times wavelength, eV nm.
-const EV_NM: f64 = 1239.841_984;
+const EV_NM: f64 = 1_239.841_984;
 
 impl EvaluationRequest {
     /// Warnings of angles that are no directions above the surface in radians.
