@@ -1,7 +1,6 @@
 //! The service over HTTP: the only modules that know statuses, headers and axum.
 
 mod admission;
-mod cancel;
 mod client;
 mod color;
 mod error;

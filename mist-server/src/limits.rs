@@ -48,12 +48,19 @@ pub struct ServeLimits {
     /// Seconds that a job may run.
     #[arg(long, default_value_t = 86_400.0, value_name = "SECONDS")]
     pub max_job_time: f64,
-    /// Answers that are computed at the same time; each uses all threads.
-    #[arg(long, default_value_t = 2, value_name = "N")]
+    /// Answers that are computed at the same time, and as many small ones; each has threads of
+    /// its own.
+    #[arg(long, default_value_t = 16, value_name = "N")]
     pub max_computing: usize,
+    /// Answers for one client that are computed at the same time, and as many small ones.
+    #[arg(long, default_value_t = 2, value_name = "N")]
+    pub max_client_computing: usize,
     /// Answers that wait for that.
-    #[arg(long, default_value_t = 256, value_name = "N")]
+    #[arg(long, default_value_t = 1024, value_name = "N")]
     pub max_waiting: usize,
+    /// Answers for one client that wait for that, and as many small ones.
+    #[arg(long, default_value_t = 128, value_name = "N")]
+    pub max_client_waiting: usize,
     /// Jobs that run at the same time; each uses all threads.
     #[arg(long, default_value_t = 1, value_name = "N")]
     pub max_running: usize,

@@ -14,6 +14,10 @@ use tokio::sync::watch;
 /// Time for which a failure is the answer to those who ask again.
 const FAILURE_KEPT: Duration = Duration::from_secs(60);
 
+/// Time after which a promised value is not computed on if no client has asked again: some times
+/// that of `Retry-After`.
+const PROMISE_KEPT: Duration = Duration::from_secs(10);
+
 /// Computations and their results by key; clones share them.
 pub(crate) struct SingleFlight<T, E> {
     max_weight: usize,
@@ -32,8 +36,8 @@ struct FlightEntry<T, E> {
     result: watch::Receiver<Option<Result<T, E>>>,
     cancel: Arc<AtomicBool>,
     subscribers: usize,
-    /// True if a client was told to come back for the value.
-    is_promised: bool,
+    /// Time at which the last client left that was told to come back for the value.
+    promised_at: Option<Instant>,
     /// Weight of the value, once it is there.
     weight: usize,
     failed_at: Option<Instant>,
@@ -106,7 +110,7 @@ impl<T, E> SingleFlight<T, E> {
             result: result.clone(),
             cancel: cancel.clone(),
             subscribers: 1,
-            is_promised: false,
+            promised_at: None,
             weight: 0,
             failed_at: None,
         };
@@ -139,7 +143,7 @@ impl<T: Clone, E: Clone> Subscriber<T, E> {
         }
         let mut table = self.flights.table();
         if let Some(entry) = table.entry(&self.key, self.number) {
-            entry.is_promised = true;
+            entry.promised_at = Some(Instant::now());
         }
         None
     }
@@ -150,8 +154,11 @@ impl<T, E> Drop for Subscriber<T, E> {
         let mut table = self.flights.table();
         let Some(entry) = table.entry(&self.key, self.number) else { return };
         entry.subscribers -= 1;
+        if let Some(promised_at) = &mut entry.promised_at {
+            *promised_at = Instant::now();
+        }
         let is_wanted =
-            entry.subscribers > 0 || entry.is_promised || entry.result.borrow().is_some();
+            entry.subscribers > 0 || entry.promised_at.is_some() || entry.result.borrow().is_some();
         if !is_wanted {
             entry.cancel.store(true, Ordering::Relaxed);
             table.entries.remove(&self.key);
@@ -160,6 +167,21 @@ impl<T, E> Drop for Subscriber<T, E> {
 }
 
 impl<T, E> Producer<T, E> {
+    /// Waits until nobody has asked for the promised value for [`PROMISE_KEPT`].
+    pub(crate) async fn abandoned(&self) {
+        loop {
+            tokio::time::sleep(PROMISE_KEPT / 10).await;
+            let mut table = self.flights.table();
+            let is_awaited = table.entry(&self.key, self.number).is_some_and(|entry| {
+                let is_fresh = |at: Instant| at.elapsed() < PROMISE_KEPT;
+                entry.subscribers > 0 || entry.promised_at.is_none_or(is_fresh)
+            });
+            if !is_awaited {
+                return;
+            }
+        }
+    }
+
     /// Gives the result to all subscribers. A value of this `weight` is kept, and so is a failure
     /// if `keep_failure`.
     pub(crate) fn publish(self, result: Result<T, E>, weight: usize, keep_failure: bool) {

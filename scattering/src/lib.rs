@@ -23,6 +23,7 @@ pub mod distribution;
 pub mod doubling;
 pub mod geometry;
 pub mod grating;
+pub mod interrupt;
 pub mod lanes;
 pub mod models;
 pub mod notice;

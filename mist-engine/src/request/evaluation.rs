@@ -26,6 +26,11 @@ pub struct EvaluationRequest {
 }
 
 impl EvaluationRequest {
+    /// Number of evaluations of the model.
+    pub fn evaluations(&self) -> usize {
+        self.geometries.len()
+    }
+
     /// The material, and what remains: the basis and the geometries.
     pub fn into_parts(self) -> (Material, String, Vec<GeometryAngles>) {
         let Self { model, parameters, basis, geometries, files } = self;

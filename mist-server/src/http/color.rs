@@ -1,6 +1,7 @@
 //! Colours of spectra.
 
 use axum::{Json, extract::State};
+use mist_engine::Control;
 use serde_json::Value;
 
 use super::{
@@ -10,6 +11,7 @@ use super::{
     problem::{Problem, Problems},
     state::App,
 };
+use crate::compute::WorkSize;
 
 /// XYZ, Lab and RGB of spectra, as `mist color` gives them.
 #[utoipa::path(
@@ -25,7 +27,7 @@ pub(super) async fn color(
     client: Client,
     JsonText(body): JsonText,
 ) -> Result<Json<Value>, ApiError> {
-    let work = move || -> Result<Value, ApiError> {
+    let work = move |_: &Control| -> Result<Value, ApiError> {
         let request = serde_json::from_str(&body)
             .map_err(|error| ApiError::Body(format!("the body is not JSON: {error}")))?;
         let response = spectra::case::evaluate(&request).map_err(|error| {
@@ -34,5 +36,5 @@ pub(super) async fn color(
         })?;
         serde_json::to_value(response).map_err(|error| ApiError::Failed(error.to_string()))
     };
-    app.compute_in_time(&client, work).await?.map(Json)
+    app.compute_in_time(&client, WorkSize::Small, work).await?.map(Json)
 }

@@ -9,8 +9,8 @@ use mist_engine::{material::MaterialError, request::RequestError};
 
 use super::{media::MIST, problem::Problem};
 use crate::{
-    compute::ComputeError, failure::FailureReport, jobs::JobsError, limits::LimitReached,
-    materials::MaterialsError, memory::MemoryError, program::ProgramError, store::StoreError,
+    failure::FailureReport, jobs::JobsError, limits::LimitReached, materials::MaterialsError,
+    memory::MemoryError, program::ProgramError, store::StoreError,
 };
 
 /// Seconds after which a client may ask again.
@@ -82,19 +82,6 @@ impl From<MaterialError> for ApiError {
 impl From<StoreError> for ApiError {
     fn from(error: StoreError) -> Self {
         Self::Unavailable(error.to_string())
-    }
-}
-
-impl From<ComputeError> for ApiError {
-    fn from(error: ComputeError) -> Self {
-        match error {
-            ComputeError::Panicked => Self::Failed(error.to_string()),
-            ComputeError::QueueFull(most) => Self::Busy(LimitReached {
-                flag: "max-waiting",
-                value: most as f64,
-                message: "too many answers are being computed".into(),
-            }),
-        }
     }
 }
 

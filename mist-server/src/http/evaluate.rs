@@ -1,6 +1,6 @@
 //! Single geometries: angles as JSON, or the vectors of a renderer as bytes.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use axum::{
     Json,
@@ -9,9 +9,13 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use glam::DVec3;
-use mist_engine::material::{
-    eval,
-    lobes::{LobeOutput, Lobes},
+use mist_engine::{
+    Control,
+    material::{
+        MaterialError, eval,
+        lobes::{LobeOutput, Lobes},
+    },
+    request::EvaluationRequest,
 };
 use scattering::Mode;
 use serde::Deserialize;
@@ -28,14 +32,19 @@ use super::{
     state::App,
 };
 use crate::{
+    compute::WorkSize,
     limits::{LimitReached, ServeLimits},
     materials::StoredMaterial,
 };
 
 /// Bytes of a pair of vectors: six f32.
 const PAIR: usize = 24;
-/// Evaluations that are done at once, on the thread that answers: some hundred microseconds.
+/// Evaluations of a part of the work for one thread.
 const AT_ONCE: usize = 1024;
+/// Evaluations of a small answer.
+const SMALL: usize = 200_000;
+/// Work that is done at once, on the thread that answers.
+const AT_ONCE_TIME: Duration = Duration::from_millis(1);
 
 /// The options of `mist eval`.
 #[derive(Default, Deserialize, IntoParams)]
@@ -62,8 +71,12 @@ pub(super) async fn angles(
     JsonText(body): JsonText,
 ) -> Result<Response, ApiError> {
     let mode = if options.compat { Mode::Compat } else { Mode::Sound };
-    let work = move || eval::eval(&body, mode, None);
-    let response = app.compute_in_time(&client, work).await??;
+    let request: EvaluationRequest = serde_json::from_str(&body).map_err(MaterialError::Json)?;
+    let evaluations = request.evaluations();
+    refuse_more(evaluations, "evaluations", ("max-evaluations", client.limits.max_evaluations))?;
+    let size = if evaluations <= AT_ONCE { WorkSize::Small } else { WorkSize::Large };
+    let work = move |_: &Control| eval::answer(request, mode, None);
+    let response = app.compute_in_time(&client, size, work).await??;
     Ok(Json(response).into_response())
 }
 
@@ -91,15 +104,18 @@ pub(super) async fn vectors(
     let pairs = pairs(&body)?;
     let kept = app.materials.find(&name)?;
     let prepared = prepared(&app, &client, kept, &uri).await?;
-    let PreparedLobes { lobes, out } = &*prepared;
-    let out = *out;
+    let (lobes, out) = (&prepared.lobes, prepared.out);
     admit(&client.limits, lobes, pairs.len(), out)?;
     let evaluations = pairs.len() * lobes.wavelengths();
     app.metrics.count_evaluations(evaluations);
-    let answer = if evaluations <= AT_ONCE {
+    let answer = if prepared.expected_time(evaluations) <= AT_ONCE_TIME {
         lobes.evaluate(&pairs, out)
     } else {
-        app.compute_in_time(&client, move || in_parallel(&prepared.lobes, &pairs, out)).await?
+        let size = if evaluations <= SMALL { WorkSize::Small } else { WorkSize::Large };
+        let work = move |_: &Control| {
+            prepared.measured(evaluations, |lobes| in_parallel(lobes, &pairs, out))
+        };
+        app.compute_in_time(&client, size, work).await?
     };
     let mut bytes = Vec::with_capacity(4 * answer.len());
     for x in &answer {
@@ -142,9 +158,10 @@ async fn prepared(
     let query = MaterialQuery::of(uri)?;
     let out = LobeOutput::parse(query.out().unwrap_or("rgb"))?;
     let view = query.view(&client.limits)?;
-    let made = app.compute_in_time(client, move || Lobes::new(&kept.prepared, &view)).await??;
+    let build = move |_: &Control| Lobes::new(&kept.prepared, &view);
+    let made = app.compute_in_time(client, WorkSize::Small, build).await??;
     made.check(out)?;
-    Ok(app.lobes.insert(key, PreparedLobes { lobes: made, out }))
+    Ok(app.lobes.insert(key, PreparedLobes::new(made, out)))
 }
 
 fn admit(
@@ -154,16 +171,21 @@ fn admit(
     out: LobeOutput,
 ) -> Result<(), ApiError> {
     let (evaluations, numbers) = (pairs * lobes.wavelengths(), pairs * lobes.width(out));
-    for (count, what, flag, value) in [
-        (evaluations, "evaluations", "max-evaluations", limits.max_evaluations),
-        (numbers, "numbers", "max-numbers", limits.max_numbers),
-    ] {
-        if count as f64 > value {
-            let message = format!("the answer needs {count} {what}, more than {value}");
-            return Err(ApiError::Limit(LimitReached { flag, value, message }));
-        }
+    refuse_more(evaluations, "evaluations", ("max-evaluations", limits.max_evaluations))?;
+    refuse_more(numbers, "numbers", ("max-numbers", limits.max_numbers))
+}
+
+/// Refuses a `count` above the `value` of the limit `flag`.
+fn refuse_more(
+    count: usize,
+    what: &str,
+    (flag, value): (&'static str, f64),
+) -> Result<(), ApiError> {
+    if count as f64 <= value {
+        return Ok(());
     }
-    Ok(())
+    let message = format!("the answer needs {count} {what}, more than {value}");
+    Err(ApiError::Limit(LimitReached { flag, value, message }))
 }
 
 /// Pieces of the work on all threads.

@@ -16,6 +16,8 @@ use super::{
     client::Client, error::ApiError, extract::Query, file_response::FileRequest, state::App,
 };
 
+use crate::compute::WorkSize;
+
 /// Largest answer, bytes: it is made in memory.
 const MOST_BYTES: usize = 256 << 20;
 
@@ -95,7 +97,7 @@ pub(super) async fn answer(
         writer.write(&kept.prepared, &request, &mut bytes, control).map_err(refused)?;
         Ok(Bytes::from(bytes))
     };
-    file.answer(app, client, MOST_BYTES as f64, work).await
+    file.answer(app, client, (MOST_BYTES as f64, WorkSize::Large), work).await
 }
 
 fn refused(error: ExportError) -> ApiError {

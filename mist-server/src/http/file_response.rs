@@ -17,7 +17,7 @@ use super::{
     problem::Problem,
     state::{App, FileProducer},
 };
-use crate::memory::Reservation;
+use crate::{compute::WorkSize, memory::Reservation};
 
 /// Seconds that a client waits for a file unless it says otherwise.
 const PATIENCE: f64 = 30.0;
@@ -60,7 +60,7 @@ impl<'a> FileRequest<'a> {
         self,
         app: &App,
         client: &Client,
-        bytes: f64,
+        (bytes, size): (f64, WorkSize),
         work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
     ) -> Result<Response, ApiError> {
         // What a client may not compute is no failure for another that may.
@@ -69,7 +69,7 @@ impl<'a> FileRequest<'a> {
         app.metrics.count_table(producer.is_none());
         if let Some(producer) = producer {
             let held = app.memory.reserve(bytes)?;
-            tokio::spawn(compute(app.clone(), client.clone(), producer, held, work));
+            tokio::spawn(compute(app.clone(), client.clone(), producer, size, held, work));
         }
         match subscriber.wait(self.patience).await {
             Some(Ok(file)) => {
@@ -87,23 +87,20 @@ async fn compute(
     app: App,
     client: Client,
     producer: FileProducer,
+    size: WorkSize,
     held: Reservation,
     work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
 ) {
-    let control = Control { cancel: producer.cancel.clone(), progress: None };
-    let work = move || {
+    let work = move |control: &Control| {
         let _held = held;
-        work(&control)
+        work(control)
     };
-    let computed = tokio::time::timeout(client.limits.time(), app.compute.run(work)).await;
-    let result: Result<Bytes, Problem> = match computed {
-        Ok(Ok(done)) => done.map_err(ApiError::problem),
-        Ok(Err(error)) => Err(ApiError::from(error).problem()),
-        Err(_) => {
-            producer.cancel.store(true, std::sync::atomic::Ordering::Relaxed);
-            Err(client.too_long().problem())
-        }
+    let computed = app.compute_until(&client, size, producer.cancel.clone(), work);
+    let computed = tokio::select! {
+        computed = computed => computed.and_then(|done| done),
+        () = producer.abandoned() => Err(ApiError::Unavailable("nobody asked again".into())),
     };
+    let result: Result<Bytes, Problem> = computed.map_err(ApiError::problem);
     let bytes = result.as_ref().map_or(0, Bytes::len);
     // A failure of the service may be over when the next client asks.
     let keep_failure = result.as_ref().is_err_and(|problem| problem.status < 500);

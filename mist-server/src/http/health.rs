@@ -3,6 +3,7 @@
 use axum::extract::State;
 
 use super::{error::ApiError, problem::Problems, state::App};
+use crate::store::Store;
 
 /// Liveness: the process answers.
 #[utoipa::path(
@@ -15,7 +16,7 @@ pub(super) async fn healthz() -> &'static str {
     "ok\n"
 }
 
-/// Readiness: the service is not stopping, and its store can be read.
+/// Readiness: the service is not stopping, it has threads to compute, and its store can be written.
 #[utoipa::path(
     get,
     path = "/readyz",
@@ -26,6 +27,9 @@ pub(super) async fn readyz(State(app): State<App>) -> Result<&'static str, ApiEr
     if app.jobs.is_stopping() {
         return Err(ApiError::Unavailable("the service is stopping".into()));
     }
-    app.store(|store| store.text("", "")).await?;
+    if !app.compute.accepts_work() {
+        return Err(ApiError::Unavailable("the system has no threads for computations".into()));
+    }
+    app.store(Store::try_writing).await?;
     Ok("ready\n")
 }

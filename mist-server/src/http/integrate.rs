@@ -15,7 +15,6 @@ use serde::Deserialize;
 use utoipa::ToSchema;
 
 use super::{
-    cancel::CancelOnDrop,
     client::Client,
     error::ApiError,
     extract::{Accept, MistText, PathParameters},
@@ -23,7 +22,7 @@ use super::{
     query::{MaterialQuery, admit},
     schema,
     state::App,
-    table::memory_of,
+    table::{memory_of, size_of},
 };
 use crate::materials::StoredMaterial;
 
@@ -108,13 +107,12 @@ pub(super) async fn integrate(
     let json = accept == Accept::Json;
     let values = if out == LobeOutput::Mueller { 16.0 } else { 1.0 };
     let held = app.memory.reserve(values * memory_of(&request))?;
-    let cancel = CancelOnDrop::default();
-    let control = cancel.control();
-    let work = move || {
+    let size = size_of(&request);
+    let work = move |control: &Control| {
         let _held = held;
-        answer(&kept, &request, &query, &control, (out, json))
+        answer(&kept, &request, &query, control, (out, json))
     };
-    let text = app.compute_in_time(&client, work).await??;
+    let text = app.compute_in_time(&client, size, work).await??;
     let kind = if json { "application/json" } else { "text/plain; charset=utf-8" };
     Ok(([(header::CONTENT_TYPE, kind)], text).into_response())
 }

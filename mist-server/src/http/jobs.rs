@@ -26,6 +26,7 @@ use super::{
     state::App,
 };
 use crate::{
+    compute::WorkSize,
     jobs::{JobState, ServiceJob},
     program::{ProgramError, ProgramRequest},
 };
@@ -87,10 +88,14 @@ pub(super) async fn submit(
     // What is wrong with a program is told now rather than later.
     let limits = app.limits.clone();
     let body = app
-        .compute_in_time(&client, move || -> Result<ProgramRequest, ProgramError> {
-            body.compile(limits.engine(limits.max_job_time))?;
-            Ok(body)
-        })
+        .compute_in_time(
+            &client,
+            WorkSize::Small,
+            move |_| -> Result<ProgramRequest, ProgramError> {
+                body.compile(limits.engine(limits.max_job_time))?;
+                Ok(body)
+            },
+        )
         .await??;
     let status = app.blocking(move |app| Ok(app.jobs.submit(&body, client.name)?)).await?;
     let location = HeaderValue::from_str(&format!("/v1/jobs/{}", status.id));

@@ -7,6 +7,8 @@ use axum::{
     response::{IntoResponse, Response},
 };
 
+use mist_engine::Control;
+
 use super::{
     client::Client,
     error::ApiError,
@@ -16,7 +18,7 @@ use super::{
     schema,
     state::App,
 };
-use crate::{limits::LimitReached, materials::StoredMaterial};
+use crate::{compute::WorkSize, limits::LimitReached, materials::StoredMaterial};
 
 /// Bytes of a name.
 const LONGEST_NAME: usize = 200;
@@ -56,8 +58,8 @@ pub(super) async fn put(
         }));
     }
     let (limits, owner) = (client.limits.clone(), Some(client.name.clone()));
-    let work = move || StoredMaterial::new(body.text, body.is_json, owner, &limits);
-    let kept = app.compute_in_time(&client, work).await??;
+    let work = move |_: &Control| StoredMaterial::new(body.text, body.is_json, owner, &limits);
+    let kept = app.compute_in_time(&client, WorkSize::Small, work).await??;
     let hash = kept.hash.clone();
     let (text, key) = (kept.text.clone(), name.clone());
     app.store(move |store| store.put_material(&key, &text, &client.name)).await?;

@@ -16,6 +16,7 @@ pub(super) async fn metrics(State(app): State<App>) -> impl IntoResponse {
     let mut text = app.metrics.text();
     for (name, help, value) in [
         ("mist_materials", "Materials kept.", app.materials.len()),
+        ("mist_computing", "Answers that are computed.", app.compute.running()),
         ("mist_computing_waiting", "Answers that wait.", app.compute.waiting()),
         ("mist_memory_held_bytes", "Bytes held by requests.", app.memory.reserved()),
         ("mist_tables_kept_bytes", "Bytes of tables kept.", app.files.weight()),

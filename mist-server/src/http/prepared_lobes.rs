@@ -2,7 +2,11 @@
 
 use std::{
     num::NonZeroUsize,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::{Duration, Instant},
 };
 
 use lru::LruCache;
@@ -15,6 +19,32 @@ const CAPACITY: NonZeroUsize = NonZeroUsize::new(64).expect("64 is not 0");
 pub(super) struct PreparedLobes {
     pub(super) lobes: Lobes,
     pub(super) out: LobeOutput,
+    /// Nanoseconds of an evaluation in the slowest answer so far; 0 before the first.
+    nanoseconds: AtomicU64,
+}
+
+impl PreparedLobes {
+    pub(super) fn new(lobes: Lobes, out: LobeOutput) -> Self {
+        Self { lobes, out, nanoseconds: AtomicU64::new(0) }
+    }
+
+    /// Time that so many evaluations will take, as far as it is known from others.
+    pub(super) fn expected_time(&self, evaluations: usize) -> Duration {
+        match self.nanoseconds.load(Ordering::Relaxed) {
+            0 => Duration::MAX,
+            each => Duration::from_nanos(each.saturating_mul(evaluations as u64)),
+        }
+    }
+
+    /// Does `work`, so many evaluations, and remembers the time that it took.
+    pub(super) fn measured<T>(&self, evaluations: usize, work: impl FnOnce(&Lobes) -> T) -> T {
+        let begun = Instant::now();
+        let done = work(&self.lobes);
+        let each = begun.elapsed().as_nanos() / evaluations.max(1) as u128;
+        let each = u64::try_from(each).unwrap_or(u64::MAX).max(1);
+        self.nanoseconds.fetch_max(each, Ordering::Relaxed);
+        done
+    }
 }
 
 /// The least recently used queries make room; clones share the cache.

@@ -11,11 +11,9 @@ use mist_runner::results::Results;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::{
-    cancel::CancelOnDrop, client::Client, error::ApiError, extract::Accept, problem::Problems,
-    state::App,
-};
+use super::{client::Client, error::ApiError, extract::Accept, problem::Problems, state::App};
 use crate::{
+    compute::WorkSize,
     failure::LocatedDiagnostic,
     limits::ServeLimits,
     output::BoundedOutput,
@@ -46,11 +44,9 @@ pub(super) async fn run(
     client: Client,
     body: ProgramRequest,
 ) -> Result<Response, ApiError> {
-    let cancel = CancelOnDrop::default();
-    let control = cancel.control();
     let limits = client.limits.clone();
-    let (text, header_lines) =
-        app.compute_in_time(&client, move || attempt(&body, &limits, &control)).await??;
+    let work = move |control: &Control| attempt(&body, &limits, control);
+    let (text, header_lines) = app.compute_in_time(&client, WorkSize::Small, work).await??;
     Ok(answer(text, header_lines, accept))
 }
 
@@ -70,9 +66,11 @@ pub(super) async fn check(
     body: ProgramRequest,
 ) -> Result<Json<Checked>, ApiError> {
     let limits = client.limits.clone();
-    let work = move || body.compile(limits.engine(limits.max_time)).err();
-    let problem =
-        app.compute_in_time(&client, work).await?.map(|error| ApiError::from(error).problem());
+    let work = move |_: &Control| body.compile(limits.engine(limits.max_time)).err();
+    let problem = app
+        .compute_in_time(&client, WorkSize::Small, work)
+        .await?
+        .map(|error| ApiError::from(error).problem());
     match problem {
         None => Ok(Json(Checked { diagnostics: Vec::new() })),
         Some(problem) if problem.diagnostics.is_empty() => {

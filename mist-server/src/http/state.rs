@@ -1,8 +1,12 @@
 //! The state that handlers share.
 
-use std::{path::Path, sync::Arc};
+use std::{
+    path::Path,
+    sync::{Arc, atomic::AtomicBool},
+};
 
 use axum::body::Bytes;
+use mist_engine::Control;
 
 use super::{
     client::Client, error::ApiError, failed_keys::FailedKeys, origin::OriginRules,
@@ -10,10 +14,10 @@ use super::{
 };
 use crate::{
     access::AccessOptions,
-    compute::ComputePool,
+    compute::{ComputeError, ComputeLimits, ComputePool, WorkRequest, WorkSize},
     jobs::Jobs,
     keys::Keys,
-    limits::ServeLimits,
+    limits::{LimitReached, ServeLimits},
     materials::{Materials, StoredMaterial},
     memory::MemoryBudget,
     metrics::Metrics,
@@ -104,7 +108,12 @@ impl App {
             origins: Arc::default(),
             failed_keys: FailedKeys::default(),
             keys: keys.map(Keys::parse).transpose().map_err(StartError::Keys)?.map(Arc::new),
-            compute: ComputePool::new(limits.max_computing, limits.max_waiting),
+            compute: ComputePool::new(ComputeLimits {
+                running: limits.max_computing,
+                client_running: limits.max_client_computing,
+                waiting: limits.max_waiting,
+                client_waiting: limits.max_client_waiting,
+            }),
             memory: MemoryBudget::new(limits.max_memory),
             materials,
             lobes: PreparedLobesCache::default(),
@@ -134,15 +143,45 @@ impl App {
         self.jobs.stop();
     }
 
-    /// Does `work` on the compute pool, within the time of one answer.
+    /// Does `work` on the compute pool, within the time of one answer. It ends when the future
+    /// is dropped, because its client has left.
     pub(super) async fn compute_in_time<T: Send + 'static>(
         &self,
         client: &Client,
-        work: impl FnOnce() -> T + Send + 'static,
+        size: WorkSize,
+        work: impl FnOnce(&Control) -> T + Send + 'static,
     ) -> Result<T, ApiError> {
-        match tokio::time::timeout(client.limits.time(), self.compute.run(work)).await {
-            Ok(done) => Ok(done?),
-            Err(_) => Err(client.too_long()),
+        self.compute_until(client, size, Arc::default(), work).await
+    }
+
+    /// The same for work that ends too when `cancel` is set.
+    pub(super) async fn compute_until<T: Send + 'static>(
+        &self,
+        client: &Client,
+        size: WorkSize,
+        cancel: Arc<AtomicBool>,
+        work: impl FnOnce(&Control) -> T + Send + 'static,
+    ) -> Result<T, ApiError> {
+        let control = Control { cancel: cancel.clone(), progress: None };
+        let time = client.limits.time();
+        let request = WorkRequest { client: client.name.clone(), size, time, cancel };
+        match self.compute.run(request, move || work(&control)).await {
+            Ok(done) => Ok(done),
+            Err(ComputeError::TooLong) => Err(client.too_long()),
+            Err(ComputeError::ClientQueueFull) => Err(ApiError::TooMany(LimitReached {
+                flag: "max-client-waiting",
+                value: self.limits.max_client_waiting as f64,
+                message: "too many answers for this client wait".into(),
+            })),
+            Err(ComputeError::QueueFull) => Err(ApiError::Busy(LimitReached {
+                flag: "max-waiting",
+                value: self.limits.max_waiting as f64,
+                message: "too many answers wait".into(),
+            })),
+            Err(error @ (ComputeError::Cancelled | ComputeError::NoThreads)) => {
+                Err(ApiError::Unavailable(error.to_string()))
+            }
+            Err(error @ ComputeError::Panicked) => Err(ApiError::Failed(error.to_string())),
         }
     }
 

@@ -8,7 +8,7 @@ use axum::{
 };
 use mist_engine::{
     material::{MaterialError, table},
-    request::TableRequest,
+    request::{GridPatch, Patch, TableDirections, TableRequest},
 };
 use rise_bridge::formats::{self, ColourWriter, FORMATS, FileFormat, FormatWriter};
 use serde::Deserialize;
@@ -24,6 +24,12 @@ use super::{
     query::{MaterialQuery, admit},
     state::App,
 };
+use crate::compute::WorkSize;
+
+/// Points of a small table, times wavelengths.
+const SMALL_POINTS: f64 = 20_000.0;
+/// Solid angles of a small table, times wavelengths.
+const SMALL_PATCHES: f64 = 200.0;
 
 /// A table of a material.
 #[derive(Deserialize, IntoParams)]
@@ -108,13 +114,25 @@ async fn colours(
     admit(&request, &client.limits)?;
     request.limits = client.limits.engine(client.limits.max_time);
     let bytes = memory_of(&request);
+    let size = size_of(&request);
     let work = move |control: &mist_engine::Control| {
         let table = table::table(&kept.prepared, &request, control)?;
         let text = (writer.text)(&table, query.component(), style)
             .map_err(|error| MaterialError::NotFinite(error.to_string()))?;
         Ok(Bytes::from(text))
     };
-    file.answer(app, client, bytes, work).await
+    file.answer(app, client, (bytes, size), work).await
+}
+
+/// The size of the computation of a table.
+pub(super) fn size_of(request: &TableRequest) -> WorkSize {
+    let waves = request.wavelengths.len() as f64;
+    let is_point = match &request.directions {
+        TableDirections::Grid(grid) => grid.patch == GridPatch::Point,
+        TableDirections::List(rows) => rows.iter().all(|row| row.patch == Patch::Point),
+    };
+    let most = if is_point { SMALL_POINTS } else { SMALL_PATCHES };
+    if request.directions.rows() * waves <= most { WorkSize::Small } else { WorkSize::Large }
 }
 
 /// Bytes of a table and of its text while it is made, about: its numbers as f64 and with about

@@ -10,6 +10,7 @@ use super::{
     worker,
 };
 use crate::{
+    compute::WorkPool,
     keys::hexadecimal,
     limits::ServeLimits,
     program::ProgramRequest,
@@ -40,9 +41,14 @@ impl Jobs {
             self.0.queue().workers += 1;
             let name = format!("mist-job-{number}");
             let started = std::thread::Builder::new().name(name).spawn(move || {
-                while let Some(job) = scheduler.next() {
-                    worker::run(&scheduler, &job);
-                    scheduler.retire(&job);
+                match WorkPool::new() {
+                    Ok(threads) => {
+                        while let Some(job) = scheduler.next() {
+                            worker::run(&scheduler, &job, &threads);
+                            scheduler.retire(&job);
+                        }
+                    }
+                    Err(error) => tracing::error!(%error, "no threads for jobs"),
                 }
                 scheduler.worker_ended();
             });

@@ -18,6 +18,10 @@ pub(super) struct JobQueue {
     pub(super) jobs: BTreeMap<String, Arc<ServiceJob>>,
     /// Jobs that wait, in the order in which they run.
     pub(super) waiting: VecDeque<Arc<ServiceJob>>,
+    /// Number of the last job that has begun, by client, while others wait.
+    last_begun: BTreeMap<String, u64>,
+    /// Jobs that have begun.
+    begun: u64,
     /// Jobs that are over, the oldest first.
     pub(super) over: VecDeque<String>,
     /// Bytes of the programs and texts of all jobs.
@@ -81,6 +85,20 @@ impl JobQueue {
             return Err(JobsError::Full(LimitReached { flag: "max-client-jobs", value, message }));
         }
         Ok(())
+    }
+
+    /// Takes the next job from those that wait: the oldest one of the client whose last job began
+    /// first.
+    pub(super) fn take_next(&mut self) -> Option<Arc<ServiceJob>> {
+        let last = |job: &ServiceJob| self.last_begun.get(&job.client).copied();
+        let next = (0..self.waiting.len()).min_by_key(|at| last(&self.waiting[*at]))?;
+        let job = self.waiting.remove(next)?;
+        self.begun += 1;
+        self.last_begun.insert(job.client.clone(), self.begun);
+        if self.waiting.is_empty() {
+            self.last_begun.clear();
+        }
+        Some(job)
     }
 
     /// Removes a job from those that wait; false if it was not among them.

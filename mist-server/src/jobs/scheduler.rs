@@ -75,7 +75,7 @@ impl Scheduler {
             if queue.stopping {
                 return None;
             }
-            if let Some(job) = queue.waiting.pop_front() {
+            if let Some(job) = queue.take_next() {
                 job.status.send_modify(JobStatus::start);
                 return Some(job);
             }

@@ -15,13 +15,14 @@ use super::{
     step_journal::StepJournal,
 };
 use crate::{
+    compute::{WorkFailure, WorkPool},
     failure::FailureReport,
     output::BoundedOutput,
     program::{ProgramError, ProgramRequest},
 };
 
 /// Runs `job` to its end, or until the service stops.
-pub(super) fn run(scheduler: &Scheduler, job: &ServiceJob) {
+pub(super) fn run(scheduler: &Scheduler, job: &ServiceJob, threads: &WorkPool) {
     let body = match program(scheduler, job) {
         Ok(body) => body,
         Err(error) => {
@@ -34,9 +35,8 @@ pub(super) fn run(scheduler: &Scheduler, job: &ServiceJob) {
             );
         }
     };
-    let work = || attempt(scheduler, job, &body);
-    let done = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work));
-    let problem = match done {
+    let done = threads.run(&job.cancel, || attempt(scheduler, job, &body));
+    let problem = match done.or_else(as_cancelled) {
         Ok(Ok(())) => return,
         Ok(Err(failure)) => {
             let is_cancelled = matches!(failure, Failure::Cancelled);
@@ -50,9 +50,19 @@ pub(super) fn run(scheduler: &Scheduler, job: &ServiceJob) {
             }
             ProgramError::of(&body.program, failure).report()
         }
-        Err(_) => FailureReport::new("failed", "the computation broke down"),
+        Err(WorkFailure::Panicked | WorkFailure::Interrupted) => {
+            FailureReport::new("failed", "the computation broke down")
+        }
     };
     scheduler.finish(job, JobState::Failed, |status| status.problem = Some(problem), &[]);
+}
+
+/// A run that was interrupted is one that was cancelled.
+fn as_cancelled(failure: WorkFailure) -> Result<Result<(), Failure>, WorkFailure> {
+    match failure {
+        WorkFailure::Interrupted => Ok(Err(Failure::Cancelled)),
+        WorkFailure::Panicked => Err(failure),
+    }
 }
 
 /// The program of a job, which only the store has while it waits.

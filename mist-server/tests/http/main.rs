@@ -3,6 +3,7 @@
 mod access;
 mod ask;
 mod evaluate;
+mod hostile;
 mod integrate;
 mod jobs;
 mod models;

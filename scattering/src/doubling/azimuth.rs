@@ -32,6 +32,7 @@ pub fn modes(
     let column = |j: usize| -> Vec<Stokes4> {
         let mut sums = vec![[[0.0; 4]; 4]; rows * (last + 1)];
         for i in 0..rows {
+            crate::interrupt::check();
             for (turn, waves) in turns.iter().zip(&waves) {
                 let m = at(i, j, *turn);
                 for (sum, (cos, sin)) in sums[i * (last + 1)..].iter_mut().zip(waves) {

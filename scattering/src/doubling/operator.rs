@@ -71,6 +71,7 @@ impl LayerOperator {
 
     /// This layer over the layer `below`.
     pub fn over(&self, below: &Self) -> Self {
+        crate::interrupt::check();
         let x = between(&below.r_down, &self.r_up, &(&below.r_down * &self.t_down));
         let z = between(&self.r_up, &below.r_down, &(&self.r_up * &below.t_up));
         Self {

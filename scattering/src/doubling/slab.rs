@@ -87,6 +87,7 @@ impl SlabMedium {
         let mut r = solved(&d, &c) * faer::Scale(-1.0);
         let mut t = a + b * &r;
         for _ in 0..doublings {
+            crate::interrupt::check();
             let back = block.mirrored(&r);
             let y = between(&back, &r, &t);
             r += block.mirrored(&t) * (&r * &y);

@@ -4,6 +4,7 @@ use super::brdf::{Brdf, CommonParameters, LobeSupport, sum_of};
 use crate::{
     Basis, Direction, Geometry, Incidence, Mode, Mueller,
     geometry::beams,
+    interrupt,
     polarization::{DirectionWeights, change_basis},
     spec::{self, ParameterError, ParameterNode, range},
 };
@@ -73,6 +74,7 @@ impl Model {
         out: &mut [Mueller],
     ) {
         assert_eq!(directions.len(), out.len(), "one matrix per direction");
+        interrupt::check();
         if !incidence.is_above() {
             out.fill(Mueller::ZERO);
             return;
@@ -101,6 +103,7 @@ impl Model {
         basis: Basis,
     ) -> Mueller {
         assert_eq!(directions.len(), weights.count(), "one weight per direction");
+        interrupt::check();
         let weights = weights.signed(self.turn_sign());
         let is_above = incidence.is_above() && all_above(directions);
         if is_above && self.brdf.native_basis() == basis {

@@ -10,12 +10,13 @@ use faer::{
 };
 use num_complex::Complex64;
 
-use crate::special::matrix::ComplexMatrix;
+use crate::{interrupt, special::matrix::ComplexMatrix};
 
 const ONE: Complex64 = Complex64::ONE;
 
 /// a⁻¹ b by LU factorization with partial pivoting; both are used up.
 pub(super) fn solve(mut a: ComplexMatrix, mut b: ComplexMatrix) -> ComplexMatrix {
+    interrupt::check();
     let (n, columns) = (a.nrows(), b.ncols());
     let (mut forward, mut backward) = (vec![0_usize; n], vec![0_usize; n]);
     let mut memory = MemBuffer::new(StackReq::any_of(&[
@@ -30,6 +31,7 @@ pub(super) fn solve(mut a: ComplexMatrix, mut b: ComplexMatrix) -> ComplexMatrix
         MemStack::new(&mut memory),
         Default::default(),
     );
+    interrupt::check();
     solve::solve_in_place(
         a.as_ref(),
         a.as_ref(),
@@ -48,6 +50,7 @@ pub(super) fn add_product(
     a: &ComplexMatrix,
     b: &ComplexMatrix,
 ) -> ComplexMatrix {
+    interrupt::check();
     matmul(onto.as_mut(), Accum::Add, a, b, factor, Par::Seq);
     onto
 }

@@ -22,7 +22,7 @@ use super::{
 };
 use num_complex::Complex64;
 
-use crate::special::matrix::ComplexMatrix;
+use crate::{interrupt, special::matrix::ComplexMatrix};
 
 const I: Complex64 = Complex64::I;
 const ONE: Complex64 = Complex64::ONE;
@@ -46,6 +46,7 @@ impl SymmetricSlab {
         let doublings = if doublings.is_finite() { doublings as u32 } else { 0 };
         let half = 0.5 * depth * (-f64::from(doublings)).exp2();
         let tangent = powers.tangent(half);
+        interrupt::check();
         let even = cayley(I * half, &pair.q * &tangent);
         let odd = cayley(I * half, &tangent * &pair.p);
         // r_odd is minus the Cayley transform.
@@ -66,6 +67,7 @@ impl SymmetricSlab {
     /// waves between the two from those above.
     pub fn above(&self, below: &ComplexMatrix) -> (ComplexMatrix, ComplexMatrix) {
         let (r, t) = (&self.reflection, &self.transmission);
+        interrupt::check();
         let through = solve(add_product(identity(r.nrows()), -ONE, r, below), t.clone());
         (add_product(r.clone(), ONE, t, &(below * &through)), through)
     }
@@ -77,7 +79,9 @@ struct MatrixPowers([ComplexMatrix; 4]);
 impl MatrixPowers {
     fn of(a: ComplexMatrix) -> Self {
         let a2 = &a * &a;
+        interrupt::check();
         let a3 = &a * &a2;
+        interrupt::check();
         let a4 = &a2 * &a2;
         Self([a, a2, a3, a4])
     }

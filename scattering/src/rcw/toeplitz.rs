@@ -28,5 +28,6 @@ impl FourierSeries {
 
 /// The inverse of `m`.
 pub fn inverse(m: &ComplexMatrix) -> ComplexMatrix {
+    crate::interrupt::check();
     solve(m.clone(), identity(m.nrows()))
 }

@@ -65,6 +65,7 @@ pub(crate) fn converged<T>(
     let mut best: Option<(T, f64)> = None;
     let (mut l, mut before) = (orders.start, None::<(usize, f64)>);
     for _ in 0..ATTEMPTS {
+        crate::interrupt::check();
         let high = (l + step(l)).min(MOST);
         let fine = Level { l_max: high, is_fine: true };
         let coarse = Level { l_max: l, is_fine: false };

@@ -78,6 +78,7 @@ impl ParticleSurface {
     fn new(shape: &Shape, index: Complex64, k: f64, l_max: usize, m_max: usize) -> Self {
         let harmonics = Harmonics::new(l_max, m_max);
         let node = |point: &crate::shape::SurfaceNode| {
+            crate::interrupt::check();
             let (sin, cos) = point.theta.sin_cos();
             let x = k * point.r;
             let (psi, chi) = riccati::real(l_max, x);
@@ -143,6 +144,7 @@ impl ParticleSurface {
         let size = self.l_max + 1 - l_min;
         let mut systems = [(); 2].map(|()| ComplexMatrix::zeros(2 * size, 2 * size));
         for row in 0..size {
+            crate::interrupt::check();
             for column in 0..size {
                 let (l, inner) = (l_min + row, l_min + column);
                 let (of_inside, of_outside) = (self.scales[inner].0, self.scales[l].1);

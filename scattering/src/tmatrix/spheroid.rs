@@ -99,6 +99,7 @@ impl SpheroidSurface {
             let mut q = vec![vec![ExtendedComplex::ZERO; kept.len()]; kept.len()];
             let mut q0 = q.clone();
             for (row, &outer) in kept.iter().enumerate() {
+                crate::interrupt::check();
                 for (column, &inner) in kept.iter().enumerate() {
                     // X Q = Q⁰, transposed.
                     (q[column][row], q0[column][row]) = self.element(&waves, l_min, outer, inner);
