@@ -27,10 +27,10 @@ use files::{save, save_image};
 pub(super) fn bridge(args: &BridgeArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let source = InputText::read(&args.scene)?;
     args.lambda.warn(reporter)?;
-    if args.deferred { deferred::deferred(args, &source) } else { tables(args, &source) }
+    if args.deferred { deferred::deferred(args, &source) } else { tables(args, &source, reporter) }
 }
 
-fn tables(args: &BridgeArgs, source: &InputText) -> Result<(), CommandError> {
+fn tables(args: &BridgeArgs, source: &InputText, reporter: &Reporter) -> Result<(), CommandError> {
     if !(3..=361).contains(&args.nodes) {
         return Err(CommandError::Refused(format!("--nodes is from 3 to 361, not {}", args.nodes)));
     }
@@ -44,6 +44,8 @@ fn tables(args: &BridgeArgs, source: &InputText) -> Result<(), CommandError> {
     let (files, stem) = (DiskFiles::beside(&args.scene).shared(), source.stem());
     let make = |control: &_| product::make(&source.text, &stem, &files, &options, control);
     let made = args.threads.run(&stem, make)?.map_err(not_exported)?;
+    reporter.warn(&source.name(), &made.warnings);
+    reporter.check()?;
     save(&args.out, &made.files)?;
     print(&told(&args.out, &made))?;
     for scene in renderer.iter().flat_map(|_| &made.scenes) {

@@ -85,7 +85,9 @@ pub(super) fn export(args: &ExportArgs, reporter: &Reporter) -> Result<(), Comma
     let material = prepared(&args.material, &source, args.compat.mode(), reporter)?;
     args.lambda.warn(reporter)?;
     let label = source.stem();
-    print(&args.threads.run(&label, |control| done(args, &source, &material, control))??)
+    let said = args.threads.run(&label, |control| done(args, &source, &material, control))??;
+    reporter.warn(&source.name(), &material.warnings());
+    print(&said)
 }
 
 fn done(

@@ -128,6 +128,7 @@ pub(super) fn preview(args: &PreviewArgs, reporter: &Reporter) -> Result<(), Com
         preview::render(&material, &scene, &wavelengths, settings.clone(), control)
     });
     let film = made?.map_err(refused)?;
+    reporter.warn(&source.name(), &material.warnings());
     let failed = |error: String| CommandError::Failed(error);
     let grid = Grid::new(&wavelengths).map_err(|error| failed(error.to_string()))?;
     let plan = ColourPlan::new(&grid, settings).map_err(|error| failed(error.to_string()))?;

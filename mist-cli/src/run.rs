@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{Control, Failure, Job, RunSummary, compile};
+use mist_engine::{Control, Failure, Job, RunSummary, Warning, compile};
 use mist_runner::{
     files::DiskFiles,
     run::{RunError, ShardRun, WrittenFile, run_shard, run_to_files},
@@ -145,8 +145,11 @@ fn run_one(
     progress.finish();
     match done {
         Ok((said, summary)) => {
-            note(&source.name(), &summary);
+            note(&source.name(), &summary, reporter);
             reporter.warn_of_program(&summary.warnings, &source, format);
+            if let Some(table) = &summary.colour {
+                reporter.warn(&source.name(), &table.warnings);
+            }
             print(&said)?;
             Ok(ExitStatus::Success)
         }
@@ -203,9 +206,13 @@ fn shown(path: &Path) -> &Path {
     path.strip_prefix(".").unwrap_or(path)
 }
 
-fn note(file: &str, summary: &RunSummary) {
+/// Tells the defects that the run avoided, and the limits of models that it passed.
+fn note(file: &str, summary: &RunSummary, reporter: &Reporter) {
     for notice in &summary.met {
-        report::print_line(&format!("note: {file}: {notice}"));
+        match Warning::of_notice(notice) {
+            Some(warning) => reporter.warn(file, &[warning]),
+            None => report::print_line(&format!("note: {file}: {notice}")),
+        }
     }
 }
 

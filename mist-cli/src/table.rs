@@ -179,6 +179,7 @@ impl TableArgs {
         let made = |control: &_| table::table(&prepared, &request, control);
         let mut table = self.threads.run(&source.stem(), made)?.map_err(refused)?;
         reporter.warn(&source.name(), &table.warnings);
+        // With those of the program.
         table.warnings = reporter.warnings();
         Ok(table)
     }

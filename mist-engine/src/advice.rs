@@ -7,8 +7,11 @@
 
 mod angles;
 mod apertures;
+mod format;
+mod order;
 mod origin;
 mod reading;
+mod tables;
 mod unused;
 mod wavelength;
 mod words;
@@ -25,7 +28,7 @@ use crate::{
     Job,
     fault::Fault,
     output::{Outputs, TableLine},
-    parameters::ModelParameters,
+    parameters::{ModelParameters, TableUses},
     region::Region,
     replay::Replay,
     step::{Evaluated, Step},
@@ -54,11 +57,17 @@ impl Job {
         in_order_of_text(found)
     }
 
-    /// Warnings of numbers that look like slips: degrees for radians, nm for µm. They are part of
+    /// Warnings of slips, found when the job was compiled: degrees for radians, nm for µm, tables
+    /// without the wavelengths that are asked, formats without separators. They are part of
     /// [`Job::advice`]; every command prints them.
+    pub fn slips(&self) -> Vec<Diagnostic> {
+        self.slips.to_vec()
+    }
+
+    /// Finds the slips, warnings and errors, in the order of the text.
     ///
     /// Up to 512 steps at the ends of the loops are replayed; no model is built.
-    pub fn slips(&self) -> Vec<Diagnostic> {
+    pub(crate) fn find_slips(&self) -> Vec<Diagnostic> {
         let mut rehearsal = Rehearsal::new(self);
         rehearsal.see_ends();
         in_order_of_text(rehearsal.slips())
@@ -77,20 +86,32 @@ struct Rehearsal<'j> {
     job: &'j Job,
     readings: Vec<Reading<'j>>,
     apertures: Apertures<'j>,
+    tables: TableUses,
     /// Parameters of the models that were built.
     models: HashSet<ModelParameters>,
     steps: u64,
     /// Number of the steps that were replayed.
     fraction: f64,
     is_whole: bool,
+    /// True if all steps at the ends of loops were looked at.
+    has_all_ends: bool,
 }
 
 impl<'j> Rehearsal<'j> {
     fn new(job: &'j Job) -> Self {
         let mut readings = angles::readings(job);
         readings.extend(wavelength::readings(job));
-        let (apertures, models) = (Apertures::new(job), HashSet::new());
-        Self { job, readings, apertures, models, steps: 0, fraction: 0.0, is_whole: false }
+        Self {
+            job,
+            readings,
+            apertures: Apertures::new(job),
+            tables: TableUses::default(),
+            models: HashSet::new(),
+            steps: 0,
+            fraction: 0.0,
+            is_whole: false,
+            has_all_ends: false,
+        }
     }
 
     /// Goes through the steps up to the first that fails.
@@ -119,10 +140,21 @@ impl<'j> Rehearsal<'j> {
     /// Looks at the numbers of the steps at the ends of loops, up to the first that fails.
     fn see_ends(&mut self) {
         let mut replay = Replay::new(self.job).showing(false).at_ends();
+        let mut last: Option<ModelParameters> = None;
         for _ in 0..END_STEPS {
-            let Ok(Some(_)) = replay.next_step() else { return };
+            let step = match replay.next_step() {
+                Ok(Some(step)) => step,
+                end => {
+                    self.has_all_ends = end.is_ok();
+                    return;
+                }
+            };
             let slots = replay.values_mut().slots_mut();
             self.readings.iter_mut().for_each(|reading| reading.see(slots));
+            if !last.as_ref().is_some_and(|last| last.is_same_as(&step.parameters)) {
+                self.tables.see(&step.parameters);
+                last = Some(step.parameters);
+            }
             if self.job.graph.in_order {
                 return;
             }
@@ -134,6 +166,9 @@ impl<'j> Rehearsal<'j> {
         let mut found: Vec<_> =
             self.readings.iter().filter_map(|reading| reading.warning(self.job)).collect();
         found.extend(angles::functions(self.job));
+        found.extend(order::lost_parameters(self.job));
+        found.extend(format::separators(self.job));
+        found.extend(tables::findings(self.job, &self.tables, self.has_all_ends));
         found
     }
 

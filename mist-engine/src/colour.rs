@@ -3,6 +3,7 @@
 //! [`section`] is the section COLOR of a program, compiled; [`fold`] gathers the steps of a run
 //! into spectra; [`table`] holds the finished table. Whoever writes it needs nothing else.
 
+mod angles;
 pub(crate) mod fold;
 pub mod section;
 pub mod table;

@@ -23,7 +23,7 @@ use crate::{
     deviation::dialect,
     graph::DependencyGraph,
     parameters::ModelParameters,
-    plan::{ColourSection, ErrorColumns, LoopPlan, OutputPlan, Plan, VariableEntry},
+    plan::{ColourSection, ErrorColumns, IntegralPlan, LoopPlan, OutputPlan, Plan, VariableEntry},
 };
 use binder::Binder;
 use loops::LoopScope;
@@ -42,14 +42,20 @@ pub fn compile(
     let library = DataFiles::new(files, dialect(options.mode));
     let (plan, initial) = plan(program, &library, options)?;
     let graph = Arc::new(DependencyGraph::new(&plan, options.mode));
-    Ok(Job {
+    let job = Job {
         plan: Arc::new(plan),
         graph,
         options: options.clone(),
         library,
         given: Arc::new([]),
         initial: initial.into(),
-    })
+        slips: Arc::new([]),
+    };
+    let found = job.find_slips();
+    if found.iter().any(Diagnostic::is_error) {
+        return Err(found);
+    }
+    Ok(Job { slips: found.into(), ..job })
 }
 
 /// Slots of variables with their values before the first step.
@@ -85,7 +91,8 @@ fn plan(
     let loops = loops::loops(&program.loops, scope, &mut binder);
     loops::check_incident_loops(&program, &entries, &loops, &mut binder);
     let format = outputs::format(&program, &mut binder);
-    let colour = colour(&program, (&entries, &loops, &outputs), options, &mut binder);
+    let parts = (&entries[..], &loops[..], &integrals[..], &outputs[..]);
+    let colour = colour(&program, parts, options, &mut binder);
     let Binder { names, expressions, mut faults, .. } = binder;
     let (Some(class), Some(format), true) = (class, format, faults.is_empty()) else {
         faults.sort_by_key(|fault| fault.span.start);
@@ -117,7 +124,12 @@ fn plan(
 /// The section COLOR, if there is one; its faults are noted.
 fn colour(
     program: &Program,
-    (entries, loops, outputs): (&[VariableEntry], &[LoopPlan], &[OutputPlan]),
+    (entries, loops, integrals, outputs): (
+        &[VariableEntry],
+        &[LoopPlan],
+        &[IntegralPlan],
+        &[OutputPlan],
+    ),
     options: &Options,
     binder: &mut Binder<'_>,
 ) -> Option<ColourSection> {
@@ -128,6 +140,7 @@ fn colour(
         entries,
         variables: &program.variables,
         loops,
+        integrals,
         outputs,
         library: binder.library,
         job: &options.job,

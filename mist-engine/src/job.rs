@@ -45,6 +45,8 @@ pub struct Job {
     pub(crate) given: Arc<[(usize, f64)]>,
     /// The values of the variables before the first step.
     pub(crate) initial: Arc<[(u32, Value)]>,
+    /// Warnings of slips in its text.
+    pub(crate) slips: Arc<[Diagnostic]>,
 }
 
 impl Job {

@@ -11,12 +11,19 @@ pub mod table;
 
 mod patch;
 
-use std::sync::Arc;
+use std::{
+    collections::BTreeSet,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use rayon::prelude::*;
 
 use crate::{
-    DataFiles, Failure, FileError, Files, Job, MemoryFiles,
+    DataFiles, Failure, FileError, Files, Job, MemoryFiles, Warning,
     deviation::dialect,
-    parameters::{ModelParameters, ParameterInput, ParameterPath, SetError},
+    parameters::{
+        ModelParameters, ParameterInput, ParameterPath, SetError, TableFinding, TableUses,
+    },
     region::RegionError,
     replay::Replay,
     request::RequestError,
@@ -140,12 +147,33 @@ impl Material {
         let library = DataFiles::new(Arc::new(shelf), dialect(mode));
         let class = class(&self.model)?;
         let mut parameters = ModelParameters::new(class);
-        for (path, value) in &self.parameters {
-            let path = ParameterPath::resolve(class, path);
-            parameters.set(&path, ParameterInput::Text(value), &library, mode, None)?;
+        let paths = self.parameters.iter().map(|(path, _)| ParameterPath::resolve(class, path));
+        let paths: Vec<_> = paths.collect();
+        if mode == Mode::Sound {
+            check_order(&paths)?;
         }
-        Ok(PreparedMaterial { parameters, mode })
+        for (path, (_, value)) in paths.iter().zip(&self.parameters) {
+            parameters.set(path, ParameterInput::Text(value), &library, mode, None)?;
+        }
+        Ok(PreparedMaterial::new(parameters, mode))
     }
+}
+
+/// Refuses a parameter that a later choice of a class replaces by its default.
+fn check_order(paths: &[ParameterPath]) -> Result<(), MaterialError> {
+    for (at, path) in paths.iter().enumerate() {
+        let later = &paths[at + 1..];
+        let chooses = |object: &ParameterPath| object.names_object() && path.is_inside(object);
+        let Some(chosen) = later.iter().position(chooses) else { continue };
+        if !later[chosen + 1..].iter().any(|again| again.as_str() == path.as_str()) {
+            let object = later[chosen].as_str();
+            let problem =
+                format!("it is set before {object}, which makes a new object: it is lost");
+            let help = format!("write {} behind {object}", path.as_str());
+            return Err(SetError::value(problem).help(help).named(path.as_str()).into());
+        }
+    }
+    Ok(())
 }
 
 fn class(name: &str) -> Result<&'static scattering::Class, MaterialError> {
@@ -161,6 +189,8 @@ fn class(name: &str) -> Result<&'static scattering::Class, MaterialError> {
 pub struct PreparedMaterial {
     parameters: ModelParameters,
     mode: Mode,
+    /// Warnings of the models that were built; clones share them.
+    warnings: Arc<Mutex<BTreeSet<Warning>>>,
 }
 
 impl PreparedMaterial {
@@ -172,7 +202,7 @@ impl PreparedMaterial {
     pub fn of_step(job: &Job) -> Result<Self, Failure> {
         let step = Replay::new(job).next_step().map_err(|fault| Failure::Program(vec![*fault]))?;
         let empty = || Failure::Limit("the loops of the program have no step".into());
-        Ok(Self { parameters: step.ok_or_else(empty)?.parameters, mode: job.options.mode })
+        Ok(Self::new(step.ok_or_else(empty)?.parameters, job.options.mode))
     }
 
     /// The same at another wavelength (µm): that of the model and of everything inside of it.
@@ -183,7 +213,69 @@ impl PreparedMaterial {
         if self.mode == Mode::Compat {
             parameters.forget_other_wavelengths();
         }
-        Self { parameters, mode: self.mode }
+        Self { parameters, mode: self.mode, warnings: self.warnings.clone() }
+    }
+
+    /// The models at all `wavelengths` (nm), built in parallel.
+    ///
+    /// What is to be told of them joins [`PreparedMaterial::warnings`].
+    ///
+    /// # Errors
+    ///
+    /// For tables that have none of the wavelengths, and values that the model cannot take.
+    pub fn models(&self, wavelengths: &[f64]) -> Result<Vec<Model>, MaterialError> {
+        let all: Vec<Self> = wavelengths.iter().map(|nm| self.at(nm / 1000.0)).collect();
+        self.check_tables(&all)?;
+        let built: Result<Vec<_>, MaterialError> = all.par_iter().map(Self::model).collect();
+        let (models, notices): (Vec<Model>, Vec<Vec<Notice>>) = built?.into_iter().unzip();
+        self.warn(notices.iter().flatten().filter_map(Warning::of_notice));
+        Ok(models)
+    }
+
+    /// The model at its own wavelength, as [`PreparedMaterial::models`].
+    ///
+    /// # Errors
+    ///
+    /// As [`PreparedMaterial::models`].
+    pub fn own_model(&self) -> Result<(Model, Vec<Notice>), MaterialError> {
+        self.check_tables(std::slice::from_ref(self))?;
+        let (model, notices) = self.model()?;
+        self.warn(notices.iter().filter_map(Warning::of_notice));
+        Ok((model, notices))
+    }
+
+    /// Warnings of the models that were built so far.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let warnings = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
+        warnings.iter().cloned().collect()
+    }
+
+    /// The same material with warnings of its own.
+    #[must_use]
+    pub fn with_own_warnings(&self) -> Self {
+        Self::new(self.parameters.clone(), self.mode)
+    }
+
+    fn new(parameters: ModelParameters, mode: Mode) -> Self {
+        Self { parameters, mode, warnings: Arc::default() }
+    }
+
+    fn warn(&self, found: impl Iterator<Item = Warning>) {
+        self.warnings.lock().unwrap_or_else(PoisonError::into_inner).extend(found);
+    }
+
+    /// Compares the tables with the wavelengths at which the materials `all` ask them.
+    fn check_tables(&self, all: &[Self]) -> Result<(), MaterialError> {
+        let mut uses = TableUses::default();
+        all.iter().for_each(|material| uses.see(&material.parameters));
+        for TableFinding { path, is_error, warning } in uses.findings() {
+            if is_error && self.mode == Mode::Sound {
+                let error = SetError::value(warning.message).help_if(warning.help).named(&path);
+                return Err(error.into());
+            }
+            self.warn(std::iter::once(warning));
+        }
+        Ok(())
     }
 
     /// Sound physics or NIST's numbers.

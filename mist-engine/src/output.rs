@@ -1,6 +1,10 @@
 //! From the integrals of a step to a line of the results, and where lines go.
 
+mod not_finite;
+
 use std::{io, ops::Range, sync::Arc};
+
+pub(crate) use not_finite::NotFinite;
 
 use mist_format::{
     expr::{Expr, OperandStack, Value},
@@ -160,6 +164,7 @@ pub(crate) struct Outputs<'j> {
     hides: bool,
     /// True if the numbers are formatted, and not only computed.
     formats: bool,
+    pub(crate) not_finite: NotFinite,
 }
 
 impl<'j> Outputs<'j> {
@@ -171,7 +176,8 @@ impl<'j> Outputs<'j> {
         let mut results = job.plan.results();
         let hides =
             results.any(|slot| job.plan.reads.contains(&slot) || predefined.contains(&slot));
-        Self { job, scope, stack: OperandStack::default(), values: None, hides, formats }
+        let (stack, not_finite) = (OperandStack::default(), NotFinite::new(job.plan.outputs.len()));
+        Self { job, scope, stack, values: None, hides, formats, not_finite }
     }
 
     /// Puts the line of `step`, whose integrals came out as `integrals`, into `line`.
@@ -200,10 +206,13 @@ impl<'j> Outputs<'j> {
             cells.push(start..text.len());
             text.push('\t');
         }
-        for output in &job.plan.outputs {
+        for (at, output) in job.plan.outputs.iter().enumerate() {
             let value = self.number_at(&output.expr, &output.text)?;
             self.scope.set_number(output.slot, value);
             outputs.push(value);
+            if !value.is_finite() {
+                self.not_finite.add(at, step.index);
+            }
         }
         if !self.formats {
             return Ok(());

@@ -17,6 +17,7 @@ mod input;
 mod path;
 mod persistent;
 mod source;
+mod spectral;
 mod state;
 mod table;
 mod text;
@@ -24,6 +25,7 @@ mod text;
 pub use error::SetError;
 pub use input::ParameterInput;
 pub use path::ParameterPath;
+pub(crate) use spectral::{TableFinding, TableUses};
 
 use input::ParameterContext;
 

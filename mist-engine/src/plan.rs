@@ -220,6 +220,8 @@ pub struct ColourSection {
     pub(crate) angles: [Option<PlacedExpression>; 4],
     /// Slots of the output labels of I, Q, U, V.
     pub(crate) spectrum: Vec<u32>,
+    /// The first integral that the spectrum is computed from.
+    pub(crate) integral: Option<usize>,
     /// Per loop, the first declared first: what it does to the table.
     pub(crate) roles: Vec<LoopRole>,
     pub(crate) settings: ColourSettings,

@@ -36,5 +36,5 @@ pub use incident::IncidentLight;
 pub use material::{Material, MaterialDescription, ProgramDescription};
 pub use nodes::{Nodes, Wavelengths};
 pub use patch::{Patch, PatchList, PatchRow};
-pub use slips::wavelength_warning;
+pub use slips::{invisible_warning, wavelength_warning};
 pub use table::{TableDirections, TableQuery, TableRequest};

@@ -90,7 +90,7 @@ impl FailureReport {
 }
 
 /// The diagnostics of the program `text` with lines and columns.
-fn located(text: &str, found: &[Diagnostic]) -> Vec<LocatedDiagnostic> {
+pub(crate) fn located(text: &str, found: &[Diagnostic]) -> Vec<LocatedDiagnostic> {
     let lines = LineIndex::new(text);
     let one = |d: &Diagnostic| {
         let (start, end) = (lines.location(text, d.span.start), lines.location(text, d.span.end));

@@ -31,6 +31,7 @@ mod run;
 mod schema;
 mod state;
 mod table;
+mod warnings;
 
 pub use listen::serve;
 pub use routes::{openapi, router};

@@ -4,7 +4,6 @@ use mist_engine::{
     material::{MaterialError, PreparedMaterial},
     request::RequestError,
 };
-use rayon::prelude::*;
 use scattering::{Basis, Model, Side, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Xyz};
 
@@ -30,10 +29,7 @@ pub(crate) fn models(
     material: &PreparedMaterial,
     wavelengths: &[f64],
 ) -> Result<Vec<Model>, MaterialError> {
-    let models = wavelengths
-        .par_iter()
-        .map(|nm| Ok(material.at(nm / 1000.0).model()?.0))
-        .collect::<Result<Vec<Model>, MaterialError>>()?;
+    let models = material.models(wavelengths)?;
     if models.iter().any(|model| model.common().side != Side::DownUp) {
         let problem = "a body is seen from outside: type = 0";
         return Err(RequestError::new("type", problem).into());

@@ -31,6 +31,8 @@ pub enum ModelLimit {
     },
     /// The azimuthal modes of a paint end before they are small.
     ModesEnded,
+    /// A tabulated reflectance is above 1.
+    ReflectanceAboveOne,
 }
 
 impl ModelLimit {
@@ -56,6 +58,10 @@ impl ModelLimit {
             Self::Unrealizable => {
                 "scattered light has more polarization than intensity at some angles: lower plmax, \
                  pcmax or s of the phase function"
+            }
+            Self::ReflectanceAboveOne => {
+                "a reflectance of the table is above 1: more light returns than arrives; divide \
+                 percentages by 100"
             }
             Self::ModesEnded => {
                 "narrow lobes of the paint have more azimuthal modes than are taken: the BRDF \

@@ -3,13 +3,17 @@
 use std::collections::HashMap;
 
 use mist_format::Diagnostic;
-use spectra::{ColourPlan, Extrapolation, Grid, Xyz, wavelength::nm_from_um};
+use spectra::{ColourPlan, Extrapolation, Grid, Interpolation, Xyz, wavelength::nm_from_um};
 
-use super::{ColourRow, ColourSection, ColourTable, RowOrder, RowPatch};
+use super::{
+    ColourRow, ColourSection, ColourTable, RowOrder, RowPatch,
+    angles::{TableAngles, of_step},
+};
 use crate::{
     fault::Fault,
     output::Outputs,
     plan::{LoopRole, PlacedExpression},
+    request::invisible_warning,
     step::Step,
 };
 
@@ -33,11 +37,13 @@ pub(crate) struct Fold<'a> {
     rows: Vec<Gathered>,
     /// The row of each combination of loops that are not folded.
     places: HashMap<Vec<u64>, usize>,
+    angles: TableAngles,
 }
 
 impl<'a> Fold<'a> {
     pub(crate) fn new(section: &'a ColourSection, incident: [f64; 4]) -> Self {
-        Self { section, incident, rows: Vec::new(), places: HashMap::new() }
+        let (rows, places, angles) = (Vec::new(), HashMap::new(), TableAngles::default());
+        Self { section, incident, rows, places, angles }
     }
 
     /// Adds a step whose outputs were just computed.
@@ -58,7 +64,7 @@ impl<'a> Fold<'a> {
         let at = match self.places.get(&place) {
             Some(at) => *at,
             None => {
-                let row = self.begin(outputs)?;
+                let row = self.begin(step, outputs)?;
                 self.rows.push(row);
                 self.places.insert(place, self.rows.len() - 1);
                 self.rows.len() - 1
@@ -68,12 +74,15 @@ impl<'a> Fold<'a> {
         Ok(())
     }
 
-    fn begin(&self, outputs: &mut Outputs<'_>) -> Result<Gathered, Fault> {
+    fn begin(&mut self, step: &Step, outputs: &mut Outputs<'_>) -> Result<Gathered, Fault> {
+        let of_step = of_step(step, self.section.integral);
         let mut direction = [0.0; 4];
-        for (value, placed) in direction.iter_mut().zip(&self.section.angles) {
-            if let Some(placed) = placed {
-                *value = self.number(placed, outputs)?;
-            }
+        for (at, placed) in self.section.angles.iter().enumerate() {
+            direction[at] = match placed {
+                Some(placed) => self.number(placed, outputs)?,
+                None => of_step[at].unwrap_or(0.0),
+            };
+            self.angles.compare(at, placed.as_ref(), direction[at], of_step[at]);
         }
         let mut leading = Vec::new();
         for role in &self.section.roles {
@@ -122,6 +131,8 @@ impl<'a> Fold<'a> {
             LoopRole::Leading(columns) => columns.iter().map(|(name, _)| name.clone()).collect(),
             LoopRole::Folded | LoopRole::Direction => Vec::new(),
         });
+        let mut warnings = self.angles.warnings();
+        warnings.extend(invisible_warning(&wavelengths));
         Ok(ColourTable {
             material: section.material.clone(),
             quantity: format!("{} {}", settings.quantity.name(), settings.quantity.unit()),
@@ -140,21 +151,17 @@ impl<'a> Fold<'a> {
             stokes,
             rows,
             albedo: Vec::new(),
-            warnings: Vec::new(),
+            warnings,
         })
     }
 }
 
 /// Interpolation of spectra on `grid` to 1 nm, as in the header of the table.
 pub(crate) fn interpolation(grid: &Grid, outside: Extrapolation) -> String {
-    let how = if grid.is_one_nanometre() {
-        "none"
-    } else if grid.step_nm().is_some() && grid.len() >= 6 {
-        "sprague"
-    } else if grid.len() >= 4 {
-        "spline"
-    } else {
-        "linear"
+    let how = match Interpolation::for_grid(grid) {
+        // The word of the format.
+        Interpolation::Cubic => "spline",
+        other => other.name(),
     };
     let ends = match outside {
         Extrapolation::Hold => "hold",

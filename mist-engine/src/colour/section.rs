@@ -18,7 +18,10 @@ use crate::{
     DataFiles,
     deviation::dialect,
     fault::placed,
-    plan::{ColourSection, LoopPlan, LoopRole, OutputPlan, PlacedExpression, VariableEntry},
+    plan::{
+        ColourSection, IntegralPlan, LoopPlan, LoopRole, OutputPlan, PlacedExpression,
+        VariableEntry,
+    },
     slots::SlotNames,
 };
 
@@ -29,6 +32,7 @@ pub(crate) struct ColourContext<'a> {
     pub(crate) entries: &'a [VariableEntry],
     pub(crate) variables: &'a [ProgramVariable],
     pub(crate) loops: &'a [LoopPlan],
+    pub(crate) integrals: &'a [IntegralPlan],
     pub(crate) outputs: &'a [OutputPlan],
     pub(crate) library: &'a DataFiles,
     pub(crate) job: &'a str,
@@ -89,6 +93,7 @@ impl SectionCompiler<'_> {
         Ok(ColourSection {
             wavelength,
             angles,
+            integral: self.integral(&spectrum),
             spectrum,
             roles,
             settings: settings.expect("wrong settings are faults"),
@@ -266,6 +271,21 @@ impl SectionCompiler<'_> {
             }
         };
         self.context.loops.iter().map(role).collect()
+    }
+
+    /// The first integral that the outputs in `slots` read.
+    fn integral(&self, slots: &[u32]) -> Option<usize> {
+        let mut open: Vec<u32> = slots.to_vec();
+        let mut seen = BTreeSet::new();
+        while let Some(slot) = open.pop() {
+            let integral = self.context.integrals.iter().position(|plan| plan.slot == slot);
+            if integral.is_some() {
+                return integral;
+            }
+            let outputs = self.context.outputs.iter().filter(|output| output.slot == slot);
+            open.extend(outputs.flat_map(|o| o.expr.slots()).filter(|read| seen.insert(**read)));
+        }
+        None
     }
 
     /// Entries of VARIABLES that the values in `slots` are computed from.

@@ -70,7 +70,8 @@ pub fn answer(
     let mut warnings = request.warnings();
     let (material, basis, geometries) = request.into_parts();
     let basis: Basis = read("basis", &basis)?;
-    let (model, met) = material.prepare(mode, more_files)?.model()?;
+    let prepared = material.prepare(mode, more_files)?;
+    let (model, met) = prepared.own_model()?;
     let row = |m: Mueller| m.to_row_major().map(JsonNumber);
     let at = |a: &GeometryAngles| {
         let GeometryAngles { theta_i, theta_s, phi_s, rotation } = *a;
@@ -78,7 +79,7 @@ pub fn answer(
     };
     let mueller: Vec<_> = geometries.iter().map(|angles| row(at(angles))).collect();
     warnings.extend(not_finite(&mueller));
-    warnings.extend(met.iter().filter_map(Warning::of_notice));
+    warnings.extend(prepared.warnings());
     Ok(EvaluationResponse {
         mueller,
         defects: met.iter().filter_map(defect).collect(),

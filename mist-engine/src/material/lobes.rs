@@ -87,10 +87,8 @@ impl Lobes {
             1 => Vec::new(),
             _ => weights(&view.wavelengths, &view.settings)?,
         };
-        let model = |nm: &f64| Ok(material.at(nm / 1000.0).model()?.0);
-        let models: Result<_, MaterialError> = view.wavelengths.iter().map(model).collect();
         Ok(Self {
-            models: models?,
+            models: material.models(&view.wavelengths)?,
             weights,
             scale: scale(view.settings.quantity),
             light: Stokes(view.incident),

@@ -45,6 +45,7 @@ pub fn table(
     control: &Control,
 ) -> Result<ColourTable, MaterialError> {
     let colours = Colours::new(&request.wavelengths, &request.settings)?;
+    let material = &material.with_own_warnings();
     let work = TableComputation::new(material, request)?;
     let components = if request.stokes || !request.settings.filters.is_empty() { 4 } else { 1 };
     let scale = scale(request.settings.quantity);
@@ -92,7 +93,9 @@ pub fn table(
         leading: Vec::new(),
         stokes,
     };
-    Ok(colours.table(head, rows.into_iter().flatten().collect(), albedo))
+    let table = colours.table(head, rows.into_iter().flatten().collect(), albedo);
+    let warnings = request.warnings().into_iter().chain(material.warnings()).collect();
+    Ok(ColourTable { warnings, ..table })
 }
 
 /// Factor from a BRDF (1/sr) to `quantity`.
@@ -237,9 +240,8 @@ impl<'a> TableComputation<'a> {
             let message = format!("the table needs {cost:.3e} evaluations, more than {limit:e}");
             return Err(MaterialError::Limit(message));
         }
-        let model = |nm: &f64| Ok(material.at(nm / 1000.0).model()?.0);
-        let models: Result<_, MaterialError> = request.wavelengths.par_iter().map(model).collect();
-        Ok(Self { request, models: models?, probes, groups, rows })
+        let models = material.models(&request.wavelengths)?;
+        Ok(Self { request, models, probes, groups, rows })
     }
 
     /// Per wavelength the means of the rows of `group`.

@@ -18,6 +18,8 @@ pub(crate) struct FilmsState {
     /// The texts they were read from.
     texts: Vec<String>,
     films: Vec<Film>,
+    /// Files of their materials with their least and largest wavelength.
+    files: Vec<(String, [f64; 2])>,
 }
 
 impl Hash for FilmsState {
@@ -75,11 +77,17 @@ impl FilmsState {
         };
         for optics::FilmText { material, thickness } in films {
             let (source, column) = TableSource::of_index_text(material, context.library)?;
+            self.files.extend(source.file_range().map(|(file, range)| (file.to_owned(), range)));
             let index = IndexState::of_source("film", source, column, context)?.value();
             self.films.push(Film { index, thickness });
         }
         self.texts.push(text.to_owned());
         Ok(())
+    }
+
+    /// The files of the materials, and their least and largest wavelength.
+    pub(crate) fn files(&self) -> impl Iterator<Item = (&str, [f64; 2])> {
+        self.files.iter().map(|(file, range)| (file.as_str(), *range))
     }
 
     pub(crate) fn value(&self) -> Vec<Film> {

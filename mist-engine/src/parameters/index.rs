@@ -154,6 +154,11 @@ impl IndexState {
         self.held = None;
     }
 
+    /// The file of n, and its least and largest wavelength.
+    pub(crate) fn file_range(&self) -> Option<(&str, [f64; 2])> {
+        self.n.file_range()
+    }
+
     /// True if NIST's library reads another index or file in the text.
     pub(crate) fn is_misread(&self) -> bool {
         self.misread

@@ -55,6 +55,17 @@ impl ParameterPath {
         self.text.strip_prefix(&*object.text).is_some_and(|rest| rest.starts_with('.'))
     }
 
+    /// True if the path names an object, so that setting it chooses a class.
+    pub(crate) fn names_object(&self) -> bool {
+        let last = self.parts.last();
+        last.is_some_and(|part| {
+            let is_object = |(_, _, param): &(_, _, &Parameter)| {
+                matches!(param.kind, ParameterKind::Member { .. })
+            };
+            !part.positions.is_empty() && part.positions.iter().all(is_object)
+        })
+    }
+
     /// The whole path, seen from the model.
     pub(crate) fn relative_to_model(&self) -> RelativePath<'_> {
         RelativePath { path: self, at: 0 }

@@ -148,6 +148,15 @@ impl TableSource {
         }
     }
 
+    /// The file of rows, and its least and largest abscissa.
+    pub(crate) fn file_range(&self) -> Option<(&str, [f64; 2])> {
+        let Self::Rows { file, table } = self else { return None };
+        let abscissae = || table.rows().map(|row| row[0]);
+        let low = abscissae().fold(f64::INFINITY, f64::min);
+        let high = abscissae().fold(f64::NEG_INFINITY, f64::max);
+        Some((file, [low, high]))
+    }
+
     /// Names of the parameters of a formula file.
     pub(crate) fn parameters(&self) -> Vec<&str> {
         match self {

@@ -85,6 +85,11 @@ impl ObjectState {
         }
     }
 
+    /// The parameters of its class with their states.
+    pub(crate) fn parameters(&self) -> impl Iterator<Item = (&'static Parameter, &ParameterState)> {
+        self.class.parameters().zip(&self.slots)
+    }
+
     fn unknown(&self, name: &str) -> SetError {
         let known: Vec<&str> = self.class.parameters().map(|param| param.name).collect();
         let list = known.join(", ");

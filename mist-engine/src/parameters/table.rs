@@ -109,6 +109,11 @@ impl TableState {
         Ok(())
     }
 
+    /// The file that it is read from, and its least and largest abscissa.
+    pub(crate) fn file_range(&self) -> Option<(&str, [f64; 2])> {
+        self.source.file_range()
+    }
+
     pub(crate) fn value(&self) -> RealFunction {
         self.table.clone()
     }

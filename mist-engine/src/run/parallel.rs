@@ -11,7 +11,7 @@ use crate::{
     Failure, Job,
     fault::at_step,
     journal::StepResult,
-    output::{Outputs, TableLine},
+    output::{NotFinite, Outputs, TableLine},
     step::Step,
 };
 
@@ -134,6 +134,11 @@ impl<'a> StepBatch<'a> {
         let filled: Vec<Result<(), Failure>> =
             self.0.par_iter_mut().zip(parts).map(|(own, part)| own.fill(part)).collect();
         filled.into_iter().collect()
+    }
+
+    /// The counts of outputs that are not finite, of each worker.
+    pub(super) fn not_finite(&self) -> impl Iterator<Item = &NotFinite> {
+        self.0.iter().map(|own| &own.outputs.not_finite)
     }
 
     /// The steps and their lines.

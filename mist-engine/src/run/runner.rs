@@ -95,6 +95,8 @@ impl<'a> Runner<'a> {
         } else {
             self.run_sequential(first, reader)?
         };
+        let steps = self.part.as_ref().map_or(self.summary.steps, |part| part.end - part.start);
+        self.summary.warnings.extend(self.outputs.not_finite.warnings(self.job, steps));
         self.summary.seconds = started.elapsed().as_secs_f64();
         self.summary.evaluations = self.meter.evaluations;
         Ok(())
@@ -125,6 +127,7 @@ impl<'a> Runner<'a> {
             self.end_block(fraction, block_started)?;
             goes_on = next?;
         }
+        batch.not_finite().for_each(|counts| self.outputs.not_finite.merge(counts));
         Ok(workers.count())
     }
 

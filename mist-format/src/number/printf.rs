@@ -96,6 +96,19 @@ impl PrintfFormat {
         Ok(format)
     }
 
+    /// True if two numbers in this format can be told apart: there is text before or behind them
+    /// that is no part of a number, or their width has room for a blank.
+    pub fn separates(&self) -> bool {
+        let is_separator = |c: char| !(c.is_alphanumeric() || "+-.".contains(c));
+        // Sign, point and an exponent of five characters.
+        let has_room = |c: &Conversion| {
+            c.width > c.precision.unwrap_or(6) + 8 && !matches!(c.letter, b'f' | b'F')
+        };
+        self.before.contains(is_separator)
+            || self.after.contains(is_separator)
+            || self.conversion.as_ref().is_none_or(has_room)
+    }
+
     fn tail(&mut self) -> &mut String {
         if self.conversion.is_some() { &mut self.after } else { &mut self.before }
     }

@@ -5,7 +5,11 @@ use axum::{
     http::{HeaderMap, Uri},
     response::Response,
 };
-use mist_engine::{Control, material::MaterialError, request::RequestError};
+use mist_engine::{
+    Control, Warning,
+    material::MaterialError,
+    request::{RequestError, Wavelengths, read, wavelength_warning},
+};
 use rise_bridge::{
     export::ExportError,
     formats::{ExportRequest, FileFormat, MaterialWriter},
@@ -14,6 +18,7 @@ use serde::Deserialize;
 
 use super::{
     client::Client, error::ApiError, extract::Query, file_response::FileRequest, state::App,
+    warnings::with_warnings,
 };
 
 use crate::compute::WorkSize;
@@ -92,12 +97,23 @@ pub(super) async fn answer(
     if let Some(answer) = file.not_modified() {
         return Ok(answer);
     }
+    let warnings = wavelength_warnings(&request)?;
     let work = move |control: &Control| {
         let mut bytes = Vec::new();
         writer.write(&kept.prepared, &request, &mut bytes, control).map_err(refused)?;
         Ok(Bytes::from(bytes))
     };
-    file.answer(app, client, (MOST_BYTES as f64, WorkSize::Large), work).await
+    Ok(with_warnings(
+        file.answer(app, client, (MOST_BYTES as f64, WorkSize::Large), work).await?,
+        &warnings,
+    ))
+}
+
+/// Warnings of wavelengths that look like another unit than nm.
+fn wavelength_warnings(request: &ExportRequest) -> Result<Vec<Warning>, ApiError> {
+    let Some(text) = &request.lambda else { return Ok(Vec::new()) };
+    let nm = read::<Wavelengths>("lambda", text)?.into_vec();
+    Ok(wavelength_warning(&nm).into_iter().collect())
 }
 
 fn refused(error: ExportError) -> ApiError {

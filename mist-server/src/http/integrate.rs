@@ -23,6 +23,7 @@ use super::{
     schema,
     state::App,
     table::{memory_of, size_of},
+    warnings::with_warnings,
 };
 use crate::materials::StoredMaterial;
 
@@ -108,13 +109,15 @@ pub(super) async fn integrate(
     let values = if out == LobeOutput::Mueller { 16.0 } else { 1.0 };
     let held = app.memory.reserve(values * memory_of(&request))?;
     let size = size_of(&request);
+    let warnings = request.warnings();
     let work = move |control: &Control| {
         let _held = held;
         answer(&kept, &request, &query, control, (out, json))
     };
     let text = app.compute_in_time(&client, size, work).await??;
     let kind = if json { "application/json" } else { "text/plain; charset=utf-8" };
-    Ok(([(header::CONTENT_TYPE, kind)], text).into_response())
+    let response = ([(header::CONTENT_TYPE, kind)], text).into_response();
+    Ok(with_warnings(response, &warnings))
 }
 
 /// The text of the answer.

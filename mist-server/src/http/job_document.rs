@@ -6,7 +6,7 @@ use utoipa::ToSchema;
 
 use super::problem::Problem;
 use crate::{
-    failure::FailureReport,
+    failure::{FailureReport, LocatedDiagnostic},
     jobs::{JobState, JobStatus},
 };
 
@@ -45,6 +45,9 @@ pub(super) struct JobDocument {
     /// Defects of NIST's library that a sound run stepped around.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     defects: Vec<String>,
+    /// Warnings of results that are probably not what was meant.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<LocatedDiagnostic>,
     /// The texts of a job that is done: `results`, `listing`, `samples`, `table.…`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     texts: Vec<String>,
@@ -65,6 +68,7 @@ impl From<JobStatus> for JobDocument {
             resumed_after: status.resumed_after,
             problem: status.problem.map(problem),
             defects: status.defects,
+            warnings: status.warnings,
             texts: status.texts,
         }
     }

@@ -22,12 +22,12 @@ use super::{
     error::ApiError,
     extract::{Accept, PathParameters, Query},
     problem::Problems,
-    run::answer,
+    run::{ResultsText, answer},
     state::App,
 };
 use crate::{
     compute::WorkSize,
-    jobs::{JobState, ServiceJob},
+    jobs::{JobState, JobStatus, ServiceJob},
     program::{ProgramError, ProgramRequest},
 };
 
@@ -212,7 +212,8 @@ pub(super) async fn results(
     } else {
         text(&app, job, "results").await?
     };
-    Ok(answer(text, status.header_lines, accept))
+    let JobStatus { header_lines, warnings, .. } = status;
+    Ok(answer(ResultsText { text, header_lines, warnings }, accept))
 }
 
 /// The listing of a finished job.

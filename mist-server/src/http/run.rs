@@ -9,12 +9,16 @@ use axum::{
 use mist_engine::Control;
 use mist_runner::results::Results;
 use serde::Serialize;
+use serde_json::json;
 use utoipa::ToSchema;
 
-use super::{client::Client, error::ApiError, extract::Accept, problem::Problems, state::App};
+use super::{
+    client::Client, error::ApiError, extract::Accept, problem::Problems, state::App,
+    warnings::with_diagnostics,
+};
 use crate::{
     compute::WorkSize,
-    failure::LocatedDiagnostic,
+    failure::{LocatedDiagnostic, located},
     limits::ServeLimits,
     output::BoundedOutput,
     program::{ProgramError, ProgramRequest},
@@ -46,8 +50,8 @@ pub(super) async fn run(
 ) -> Result<Response, ApiError> {
     let limits = client.limits.clone();
     let work = move |control: &Control| attempt(&body, &limits, control);
-    let (text, header_lines) = app.compute_in_time(&client, WorkSize::Small, work).await??;
-    Ok(answer(text, header_lines, accept))
+    let table = app.compute_in_time(&client, WorkSize::Small, work).await??;
+    Ok(answer(table, accept))
 }
 
 /// Check a program without running it; the body is that of `/v1/run`.
@@ -66,17 +70,17 @@ pub(super) async fn check(
     body: ProgramRequest,
 ) -> Result<Json<Checked>, ApiError> {
     let limits = client.limits.clone();
-    let work = move |_: &Control| body.compile(limits.engine(limits.max_time)).err();
-    let problem = app
-        .compute_in_time(&client, WorkSize::Small, work)
-        .await?
-        .map(|error| ApiError::from(error).problem());
-    match problem {
-        None => Ok(Json(Checked { diagnostics: Vec::new() })),
-        Some(problem) if problem.diagnostics.is_empty() => {
-            Err(ApiError::Problem(Box::new(problem)))
+    let work = move |_: &Control| {
+        let job = body.compile(limits.engine(limits.max_time))?;
+        Ok::<_, ProgramError>(located(&body.program, &job.slips()))
+    };
+    let found = app.compute_in_time(&client, WorkSize::Small, work).await?;
+    match found.map_err(|error| ApiError::from(error).problem()) {
+        Ok(warnings) => Ok(Json(Checked { diagnostics: Vec::new(), warnings })),
+        Err(problem) if problem.diagnostics.is_empty() => Err(ApiError::Problem(Box::new(problem))),
+        Err(problem) => {
+            Ok(Json(Checked { diagnostics: problem.diagnostics, warnings: Vec::new() }))
         }
-        Some(problem) => Ok(Json(Checked { diagnostics: problem.diagnostics })),
     }
 }
 
@@ -85,27 +89,53 @@ pub(super) async fn check(
 pub(super) struct Checked {
     /// Every mistake, in the order of the text.
     diagnostics: Vec<LocatedDiagnostic>,
+    /// Numbers that look like slips of units.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<LocatedDiagnostic>,
 }
 
-/// The results, and how many header lines they have.
+/// The results of a program.
+pub(super) struct ResultsText {
+    pub(super) text: String,
+    /// Lines before the line of names.
+    pub(super) header_lines: usize,
+    pub(super) warnings: Vec<LocatedDiagnostic>,
+}
+
+/// Runs the program.
 fn attempt(
     body: &ProgramRequest,
     limits: &ServeLimits,
     control: &Control,
-) -> Result<(String, usize), ProgramError> {
+) -> Result<ResultsText, ProgramError> {
     let job = body.compile(limits.engine(limits.max_time))?;
     let mut sink = BoundedOutput::new(limits.max_output);
-    job.run(&mut sink, control).map_err(|failure| ProgramError::of(&body.program, failure))?;
-    Ok((sink.results, job.program().files.headers().count()))
+    let mut warnings = job.slips();
+    let summary =
+        job.run(&mut sink, control).map_err(|failure| ProgramError::of(&body.program, failure))?;
+    warnings.extend(summary.warnings);
+    Ok(ResultsText {
+        text: sink.results,
+        header_lines: job.program().files.headers().count(),
+        warnings: located(&body.program, &warnings),
+    })
 }
 
 /// Results in the form that the client likes best.
-pub(super) fn answer(text: String, header_lines: usize, accept: Accept) -> Response {
+pub(super) fn answer(table: ResultsText, accept: Accept) -> Response {
+    let ResultsText { text, header_lines, warnings } = table;
     let typed =
         |kind: &'static str, text: String| ([(header::CONTENT_TYPE, kind)], text).into_response();
-    match accept {
+    let response = match accept {
         Accept::Text => typed("text/plain; charset=utf-8", text),
         Accept::Csv => typed("text/csv; charset=utf-8", Results::read(&text, header_lines).csv()),
-        Accept::Json => Json(Results::read(&text, header_lines).json()).into_response(),
-    }
+        Accept::Json => {
+            let mut json = Results::read(&text, header_lines).json();
+            if !warnings.is_empty() {
+                json["warnings"] = json!(warnings);
+            }
+            Json(json).into_response()
+        }
+    };
+    with_diagnostics(response, &warnings)
 }

@@ -106,4 +106,20 @@ pub(super) struct EvalAnswer {
     mueller: Vec<Vec<Value>>,
     /// Defects of NIST's library that a sound run stepped around.
     defects: Option<Vec<String>>,
+    /// Limits of the model that the parameters pass.
+    limits: Option<Vec<String>>,
+    /// Numbers that are probably not what was meant.
+    warnings: Option<Vec<WarningBody>>,
+}
+
+/// A remark on a result that is probably not what was meant.
+#[derive(Serialize, ToSchema)]
+#[schema(as = Warning)]
+pub(super) struct WarningBody {
+    /// Kind of mistake; stable.
+    code: String,
+    /// The message.
+    message: String,
+    /// A remedy.
+    help: Option<String>,
 }

@@ -23,6 +23,7 @@ use super::{
     problem::Problems,
     query::{MaterialQuery, admit},
     state::App,
+    warnings::with_warnings,
 };
 use crate::compute::WorkSize;
 
@@ -115,13 +116,14 @@ async fn colours(
     request.limits = client.limits.engine(client.limits.max_time);
     let bytes = memory_of(&request);
     let size = size_of(&request);
+    let warnings = request.warnings();
     let work = move |control: &mist_engine::Control| {
         let table = table::table(&kept.prepared, &request, control)?;
         let text = (writer.text)(&table, query.component(), style)
             .map_err(|error| MaterialError::NotFinite(error.to_string()))?;
         Ok(Bytes::from(text))
     };
-    file.answer(app, client, (bytes, size), work).await
+    Ok(with_warnings(file.answer(app, client, (bytes, size), work).await?, &warnings))
 }
 
 /// The size of the computation of a table.

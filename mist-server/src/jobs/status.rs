@@ -4,7 +4,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
 
-use crate::failure::FailureReport;
+use crate::failure::{FailureReport, LocatedDiagnostic};
 
 /// State of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, utoipa::ToSchema)]
@@ -80,6 +80,9 @@ pub(crate) struct JobStatus {
     /// Defects of NIST's library that a sound run stepped around.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) defects: Vec<String>,
+    /// Warnings of results that are probably not what was meant.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) warnings: Vec<LocatedDiagnostic>,
     /// The texts that can be had when it is done: `results`, `listing`, `samples`, `table.…`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) texts: Vec<String>,
@@ -101,6 +104,7 @@ impl JobStatus {
             resumed_after: None,
             problem: None,
             defects: Vec::new(),
+            warnings: Vec::new(),
             texts: Vec::new(),
         }
     }

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     compute::{WorkFailure, WorkPool},
-    failure::FailureReport,
+    failure::{FailureReport, located},
     output::BoundedOutput,
     program::{ProgramError, ProgramRequest},
 };
@@ -100,17 +100,20 @@ fn attempt(scheduler: &Scheduler, job: &ServiceJob, body: &ProgramRequest) -> Re
     let ran = compiled.run_on(&mut LiveOutput(job), &control, &mut journal);
     let recalled = journal.recalled;
     let kept = journal.flush();
-    let summary = match ran {
+    let mut summary = match ran {
         // The cancellation came after the last step.
         Ok(_) if job.cancel.load(Ordering::Relaxed) => return Err(Failure::Cancelled),
         other => other?,
     };
     kept?;
     let texts = texts(job, &summary)?;
+    let mut warnings = compiled.slips();
+    warnings.append(&mut summary.warnings);
     let tell = |status: &mut JobStatus| {
         status.steps = Some(summary.steps);
         status.resumed_after = (recalled > 0).then_some(recalled);
         status.defects = summary.met.iter().map(ToString::to_string).collect();
+        status.warnings = located(&body.program, &warnings);
         status.texts = texts.iter().map(|(kind, _)| kind.clone()).collect();
     };
     scheduler.finish(job, JobState::Done, tell, &texts);

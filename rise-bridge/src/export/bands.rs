@@ -1,8 +1,7 @@
 //! The models of a material at every wavelength of a table.
 
 use glam::DVec3;
-use mist_engine::material::{MaterialError, PreparedMaterial};
-use rayon::prelude::*;
+use mist_engine::material::PreparedMaterial;
 use scattering::{Basis, Geometry, Model, Mueller, Side, vectors::geometry};
 
 use super::error::ExportError;
@@ -30,9 +29,7 @@ impl Bands {
             let problem = "expected rising wavelengths in nm, such as 450,500,550,600,650";
             return Err(ExportError::refused("wavelengths", problem));
         }
-        let model = |nm: &f64| Ok(material.at(nm / 1000.0).model()?.0);
-        let models: Result<Vec<Model>, MaterialError> = nm.par_iter().map(model).collect();
-        let bands = Self { nm: nm.to_vec(), models: models? };
+        let bands = Self { nm: nm.to_vec(), models: material.models(nm)? };
         let side = bands.models[0].common().side;
         if side != Side::DownUp {
             let problem = format!(

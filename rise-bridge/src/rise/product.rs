@@ -12,7 +12,7 @@ mod scenes;
 
 use std::sync::Arc;
 
-use mist_engine::{Control, Files};
+use mist_engine::{Control, Files, Warning};
 
 pub use output::BridgeFiles;
 pub use rings::table_of;
@@ -88,6 +88,7 @@ fn make_tables(
     let ring_program = program(material, scene, options.nodes, &options.wavelengths);
     let recorded = Arc::new(RecordedFiles::new(material, &ring_program, files.clone()));
     let run = RingRun::run(&ring_program, &recorded, control)?;
+    output.warnings.extend(run.warnings.iter().map(|warning| of_material(name, warning)));
     let nodes = options.nodes;
     let rgb = run.table.rows.iter().map(|row| into_gamut(row.rgb[0])).collect();
     let mut tables =
@@ -116,6 +117,11 @@ fn make_tables(
         output.text(&file, text.to_string());
     }
     Ok(tables)
+}
+
+/// The warning with the name of the material.
+fn of_material(name: &str, warning: &Warning) -> Warning {
+    Warning { message: format!("material {name}: {}", warning.message), ..warning.clone() }
 }
 
 /// The indices of the wavelengths that replace red, green and blue, per render.

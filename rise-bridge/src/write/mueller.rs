@@ -1,7 +1,9 @@
 //! Mueller matrices and spectra of solid angles, row by row: as text and as JSON.
 
-use mist_engine::{colour::ColourTable, material::table::MuellerRow, request::TableRequest};
-use serde_json::json;
+use mist_engine::{
+    Warning, colour::ColourTable, material::table::MuellerRow, request::TableRequest,
+};
+use serde_json::{Value, json};
 
 use super::{
     error::WriteError,
@@ -69,6 +71,7 @@ pub fn mueller_json(request: &TableRequest, rows: &[MuellerRow]) -> Result<Strin
         "wavelengths": request.wavelengths,
         "rows": rows,
     });
+    let document = with_warnings(document, &request.warnings());
     Ok(document.to_string() + "\n")
 }
 
@@ -101,7 +104,16 @@ pub fn spectra_json(table: &ColourTable, component: usize) -> Result<String, Wri
         "wavelengths": table.wavelengths,
         "rows": rows,
     });
+    let document = with_warnings(document, &table.warnings);
     Ok(document.to_string() + "\n")
+}
+
+/// The document with the key `warnings`, if there are any.
+fn with_warnings(mut document: Value, warnings: &[Warning]) -> Value {
+    if !warnings.is_empty() {
+        document["warnings"] = json!(warnings);
+    }
+    document
 }
 
 fn names(request: &TableRequest) -> Vec<String> {

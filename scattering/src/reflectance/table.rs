@@ -2,9 +2,14 @@
 
 use super::Reflectance;
 use crate::{
+    Mode,
+    notice::ModelLimit,
     optics::RealFunction,
-    spec::{Class, Laws, Parameter, Spec},
+    spec::{Class, Laws, Parameter, ParameterError, Spec},
 };
+
+/// Reflectances up to here are measured on white plates.
+const LARGEST: f64 = 1.02;
 
 /// Name, parameters and constructor of a [`TableReflectance`].
 pub const SPEC: Spec<dyn Reflectance> = Spec {
@@ -17,7 +22,17 @@ pub const SPEC: Spec<dyn Reflectance> = Spec {
         params: &[&[Parameter::table("table", 1.0, "1", "Reflectance against wavelength in um")]],
         laws: Laws::NONE,
     },
-    build: |node| Ok(Box::new(TableReflectance { table: node.table("table").clone() })),
+    build: |node| {
+        let table = node.table("table").clone();
+        if node.mode == Mode::Sound && table.dips_below_zero() {
+            let problem = "a reflectance is negative; subtract the dark signal, or write 0";
+            return Err(ParameterError::new("table", problem));
+        }
+        if table.ordinates().any(|r| r > LARGEST) {
+            node.note_limit(ModelLimit::ReflectanceAboveOne);
+        }
+        Ok(Box::new(TableReflectance { table }))
+    },
 };
 
 /// A tabulated reflectance.

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use mist_engine::Warning;
+
 use crate::rise::table::RingTable;
 
 /// The files that a run makes.
@@ -18,6 +20,8 @@ pub struct BridgeFiles {
     pub tables: BTreeMap<String, RingTable>,
     /// Materials that are not converted, with the reason.
     pub skipped: Vec<String>,
+    /// Warnings of the materials.
+    pub warnings: Vec<Warning>,
 }
 
 /// The names of the tables of one material.

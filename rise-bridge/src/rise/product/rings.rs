@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mist_engine::{
-    Control, Limits, MemorySink, Options,
+    Control, Limits, MemorySink, Options, Warning,
     colour::{ColourRow, ColourTable},
     compile,
     material::{
@@ -31,6 +31,7 @@ pub(super) struct RingRun {
     pub(super) results: String,
     pub(super) table: ColourTable,
     pub(super) prepared: PreparedMaterial,
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl RingRun {
@@ -51,12 +52,16 @@ impl RingRun {
             PreparedMaterial::of_step(&job).map_err(|failure| refused(failure.to_string()))?;
         let mut sink = MemorySink::default();
         let own = Control { cancel: control.cancel.clone(), progress: None };
-        job.run(&mut sink, &own).map_err(|failure| refused(failure.to_string()))?;
+        let summary = job.run(&mut sink, &own).map_err(|failure| refused(failure.to_string()))?;
+        let limits = summary.met.iter().filter_map(Warning::of_notice);
+        let slips = job.slips();
+        let warnings = slips.iter().chain(&summary.warnings).map(Warning::from);
+        let warnings = warnings.chain(limits).collect();
         let columns = ResultColumns::parse("wl:nm", "f")?;
         let settings = ColourQuery::default().settings(None)?;
         let incident = [1.0, 0.0, 0.0, 0.0];
         let table = results::table(&sink.results, &columns, name, &settings, (incident, "psps"))?;
-        Ok(Self { results: sink.results, table, prepared })
+        Ok(Self { results: sink.results, table, prepared, warnings })
     }
 }
 
