@@ -193,7 +193,7 @@ mod tests {
         assert_eq!(told([0.4, 0.4], [0.5, 0.5]), None);
         let (is_error, message) = told([0.4, 0.8], [0.36, 0.83]).unwrap();
         assert!(!is_error && message.contains("0.4 to 0.8 um, and 0.36 to 0.83 um"), "{message}");
-        let (is_error, message) = told([2.0, 20.0], [0.4, 0.7]).unwrap();
+        let (is_error, message) = told([10.0, 20.0], [0.4, 0.7]).unwrap();
         assert!(is_error && message.contains("no wavelength"), "{message}");
         assert!(!told([0.41, 0.8], [0.4, 0.4]).unwrap().0, "a little outside");
     }
