@@ -41,7 +41,7 @@ fn tables(args: &BridgeArgs, source: &InputText, reporter: &Reporter) -> Result<
         derive: args.derive,
         bands: args.bands,
     };
-    let (files, stem) = (DiskFiles::beside(&args.scene).shared(), source.stem());
+    let (files, stem) = (DiskFiles::beside_scene(&args.scene).shared(), source.stem());
     let make = |control: &_| product::make(&source.text, &stem, &files, &options, control);
     let made = args.threads.run(&stem, make)?.map_err(not_exported)?;
     reporter.warn(&source.name(), &made.warnings);

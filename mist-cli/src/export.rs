@@ -11,7 +11,7 @@ use mist_engine::{Control, material::PreparedMaterial};
 use mist_runner::files::AtomicFile;
 use rise_bridge::{
     formats::{self, ExportRequest, FileFormat, MaterialWriter},
-    mitsuba::pbsdf,
+    mitsuba::pbsdf::{self, PbsdfComparison, StokesSigns},
 };
 
 use super::{
@@ -23,6 +23,9 @@ use super::{
     reporter::Reporter,
     threads::ThreadsFlag,
 };
+
+/// Elements that differ by less than this part of m00 are not listed.
+const LEAST_DIFFERENCE: f64 = 1e-3;
 
 /// Write a material in the format of a renderer, or compare a table of one with it.
 ///
@@ -176,5 +179,32 @@ fn compare(
     for (nm, d) in found.nm.iter().zip(&found.found) {
         text += &format!("{nm}\t{:.6}\t{:.3e}\t{:.3e}\n", d.brightness, d.mean, d.largest);
     }
+    text += &elements(&found);
     Ok(text)
+}
+
+/// Lines about the elements that differ, and the signs of the Stokes components.
+fn elements(found: &PbsdfComparison) -> String {
+    let elements = found.different_elements(LEAST_DIFFERENCE);
+    if elements.is_empty() {
+        return "no element differs by more than 0.1 % of m00 on the average\n".to_owned();
+    }
+    let list: Vec<String> =
+        elements.iter().map(|(i, j, d)| format!("m{i}{j} {:.2} %", 100.0 * d)).collect();
+    let signs = match found.signs() {
+        StokesSigns::Same => {
+            "the signs are those of the format: V > 0 turns clockwise seen towards the light"
+        }
+        StokesSigns::OtherV => {
+            "with the opposite sign of V the table fits: it has the other hand of circular \
+             polarization"
+        }
+        StokesSigns::OtherU => {
+            "with the opposite sign of U the table fits: it counts azimuths the other way"
+        }
+        StokesSigns::OtherUAndV => {
+            "with the opposite signs of U and V the table fits: its frame is mirrored"
+        }
+    };
+    format!("differences over m00 on the average: {}\n{signs}\n", list.join(", "))
 }

@@ -17,6 +17,7 @@
 //! J. J. Moré, in *Numerical Analysis*, Lect. Notes Math. 630, 105 (1978); C. B. Markwardt, ASP
 //! Conf. Ser. 411, 251 (2009).
 
+mod cells;
 mod covariance;
 mod error;
 mod measured;

@@ -15,6 +15,9 @@ pub use atomic::AtomicFile;
 /// Environment variable with further folders of data files, as NIST's program reads it.
 const PATH_VARIABLE: &str = "SCATMECH";
 
+/// Environment variable with the folders in which RISE looks for the files of scenes.
+const MEDIA_VARIABLE: &str = "RISE_MEDIA_PATH";
+
 /// Looks for data files in the working folder, beside the program, and along `SCATMECH`.
 #[derive(Clone, Debug)]
 pub struct DiskFiles {
@@ -36,6 +39,15 @@ impl DiskFiles {
             folders.extend(std::env::split_paths(&list));
         }
         Self { folders }
+    }
+
+    /// For the scene of RISE at `path`: also in the folders of `RISE_MEDIA_PATH`.
+    pub fn beside_scene(path: &Path) -> Self {
+        let mut files = Self::beside(path);
+        if let Some(list) = std::env::var_os(MEDIA_VARIABLE) {
+            files.folders.extend(std::env::split_paths(&list));
+        }
+        files
     }
 }
 

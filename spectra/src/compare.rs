@@ -1,7 +1,7 @@
 //! Comparison of a measured and a simulated spectrum.
 //!
 //! The simulated spectrum is brought to the measured wavelengths that it covers, by a cubic spline
-//! (straight lines for fewer than four samples). With m measured and s simulated,
+//! (straight lines for uneven steps and fewer than four samples), never below zero if no sample is. With m measured and s simulated,
 //!
 //! | number | meaning |
 //! | --- | --- |
@@ -120,11 +120,16 @@ pub fn compare(
     if last < VISIBLE_NM[0] || first > VISIBLE_NM[1] {
         return Err(CompareError::Invisible { first, last });
     }
-    let s = cubic_spline(known, simulated.values(), &wavelengths).unwrap_or_else(|| {
+    let is_even = simulated.grid().step_nm().is_some();
+    let spline = cubic_spline(known, simulated.values(), &wavelengths).filter(|_| is_even);
+    let mut s = spline.unwrap_or_else(|| {
         let mut s = vec![0.0; m.len()];
         straight_lines(known, simulated.values(), &wavelengths, &mut s);
         s
     });
+    if simulated.values().iter().all(|value| *value >= 0.0) {
+        s.iter_mut().for_each(|value| *value = value.max(0.0));
+    }
     let square = dot(&s, &s);
     if !(square > 0.0) {
         return Err(CompareError::Zero);

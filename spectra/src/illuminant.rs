@@ -165,7 +165,8 @@ impl Illuminant {
         interpolation: Interpolation,
         outside: Extrapolation,
     ) -> Result<Self, IlluminantError> {
-        let fine = Resampler::new(grid, interpolation, outside)?.fine(&grid.sort(power)?);
+        let fine =
+            Resampler::new(grid, interpolation, outside)?.fine_not_negative(&grid.sort(power)?);
         let light = Self { name: name.to_owned(), fine };
         let is_visible = |observer| {
             let luminance = light.luminance(observer);

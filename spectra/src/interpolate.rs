@@ -2,8 +2,9 @@
 //!
 //! CIE 167:2005 recommends Sprague's formula for equal steps. On unequal steps a cubic spline can
 //! oscillate far beyond its samples, so straight lines are the default there: they are monotone
-//! between samples and never below zero for non-negative data. No result is clipped: Stokes values
-//! are signed.
+//! between samples. Spectra without negative samples are never negative between them: what Sprague's
+//! formula or a cubic spline gives below zero is set to zero. Signed spectra, such as Stokes
+//! components, are not changed.
 
 mod cubic;
 mod interval;
@@ -160,6 +161,16 @@ impl<'a> Resampler<'a> {
         fine
     }
 
+    /// As [`Resampler::fine`], but never below zero if no sample is: Sprague's formula and the cubic
+    /// spline may swing below a narrow peak. Not linear in the samples any more.
+    pub(crate) fn fine_not_negative(&self, sorted: &[f64]) -> Box<Fine> {
+        let mut fine = self.fine(sorted);
+        if sorted.iter().all(|value| *value >= 0.0) {
+            fine.iter_mut().for_each(|value| *value = value.max(0.0));
+        }
+        fine
+    }
+
     fn evaluate(&self, sorted: &[f64], at: &[f64]) -> Box<Fine> {
         let nm = self.grid.nm();
         let mut fine = Box::new([0.0; FINE_COUNT]);
@@ -214,6 +225,22 @@ mod tests {
                 // The last sample is the end of an interval: a sum that rounds.
                 assert!((fine[40 + 10 * i] - value).abs() < 1e-14, "{interpolation:?} {i}");
             }
+        }
+    }
+
+    #[test]
+    fn a_narrow_line_is_nowhere_negative() {
+        let nm: Vec<f64> = (0..20).map(|i| 400.0 + 10.0 * f64::from(i)).collect();
+        let grid = Grid::new(&nm).unwrap();
+        let mut line = vec![0.0; 20];
+        line[9] = 1.0;
+        for interpolation in [Interpolation::Sprague, Interpolation::Cubic] {
+            let resampler = Resampler::new(&grid, interpolation, Extrapolation::Zero).unwrap();
+            assert!(resampler.fine(&line).iter().any(|value| *value < 0.0));
+            assert!(resampler.fine_not_negative(&line).iter().all(|value| *value >= 0.0));
+            line[3] = -0.1;
+            assert_eq!(resampler.fine_not_negative(&line), resampler.fine(&line));
+            line[3] = 0.0;
         }
     }
 

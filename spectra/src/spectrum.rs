@@ -189,7 +189,7 @@ impl Spectrum {
 
     /// The spectrum on the 1 nm grid, interpolated as its grid suggests.
     pub fn fine(&self, outside: Extrapolation) -> Box<Fine> {
-        Resampler::for_grid(&self.grid, outside).fine(&self.values)
+        Resampler::for_grid(&self.grid, outside).fine_not_negative(&self.values)
     }
 
     /// The spectrum on the 1 nm grid, with a choice of interpolation.
@@ -202,7 +202,7 @@ impl Spectrum {
         interpolation: Interpolation,
         outside: Extrapolation,
     ) -> Result<Box<Fine>, GridError> {
-        Ok(Resampler::new(&self.grid, interpolation, outside)?.fine(&self.values))
+        Ok(Resampler::new(&self.grid, interpolation, outside)?.fine_not_negative(&self.values))
     }
 
     /// XYZ of the spectrum taken as a reflectance: ends held, a perfect diffuser has Y = 1.

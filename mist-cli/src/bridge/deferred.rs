@@ -24,7 +24,7 @@ pub(super) fn deferred(args: &BridgeArgs, source: &InputText) -> Result<(), Comm
     let lit = args.lit()?;
     let renderer = args.render.then(render::Renderer::of_environment).transpose()?;
     let stem = source.stem();
-    let files = DiskFiles::beside(&args.scene).shared();
+    let files = DiskFiles::beside_scene(&args.scene).shared();
     let plan = deferred::plan(&source.text, &stem, &*files, args.derive, args.finer);
     let plan = plan.map_err(not_exported)?;
     save(&args.out, &plan.files)?;

@@ -1,9 +1,10 @@
 //! A table of measured values: which lines of a program's results it is about, and what was
 //! measured there.
 //!
-//! The first line names the columns, like the results of the program; lines above it that the
-//! program writes there too, blank lines and lines that begin with `#` do not count. Names are
-//! separated by tabs, else by commas, else by blanks.
+//! A line names the columns, like the results of the program: the first one that names an output.
+//! Lines above it, blank lines and lines that begin with `#` do not count. Columns are separated by
+//! tabs, else by semicolons, else by commas, else by blanks. Names may be quoted, and
+//! units in brackets may follow them.
 //!
 //! | column | holds |
 //! | --- | --- |
@@ -17,6 +18,7 @@
 
 use std::collections::BTreeMap;
 
+use super::cells::{Separator, without_unit};
 use crate::function::OutputRow;
 
 /// Loop values are printed with six digits; nothing closer than this can be told apart.
@@ -53,8 +55,16 @@ pub enum MeasuredError {
     #[error("the measured table has no line that names its columns")]
     Empty,
     /// No column is an output.
-    #[error("no column of the measured table is an output of the program; its outputs are {0}")]
-    NoOutput(String),
+    #[error(
+        "no line of the measured table names an output of the program; its outputs are {outputs}, \
+         and the first line has {found}"
+    )]
+    NoOutput {
+        /// The outputs.
+        outputs: String,
+        /// The names in the first line.
+        found: String,
+    },
     /// A name stands twice.
     #[error("the measured table has two columns {0:?}")]
     Twice(String),
@@ -129,35 +139,49 @@ impl MeasuredTable {
         headers: &[String],
     ) -> Result<Self, MeasuredError> {
         let text = text.trim_start_matches('\u{feff}');
-        let lines = (1..).zip(text.lines()).filter(|(number, line)| {
-            let header = headers.get(number - 1).is_some_and(|header| header.trim() == line.trim());
-            !header && !line.trim().is_empty() && !line.starts_with('#')
-        });
-        let mut lines = lines.peekable();
-        let (_, first) = lines.next().ok_or(MeasuredError::Empty)?;
-        let names = names(first);
-        let roles: Vec<MeasuredColumn> =
-            names.iter().map(|name| role(name, loops, outputs)).collect();
+        let lines: Vec<(usize, &str)> = (1..)
+            .zip(text.lines())
+            .filter(|(number, line)| {
+                let header: Option<&String> = headers.get(number - 1);
+                let is_header = header.is_some_and(|header| header.trim() == line.trim());
+                !is_header && !line.trim().is_empty() && !line.starts_with('#')
+            })
+            .collect();
+        let first = lines.first().ok_or(MeasuredError::Empty)?.1;
+        let roles_of = |line: &str| {
+            let names = Separator::of(line).cells(line);
+            let roles = names.iter().map(|name| role(name, loops, outputs));
+            roles.collect::<Vec<MeasuredColumn>>()
+        };
+        let names_output = |line: &str| {
+            roles_of(line).iter().any(|role| matches!(role, MeasuredColumn::Output(_)))
+        };
+        let Some(heading) = lines.iter().position(|(_, line)| names_output(line)) else {
+            let found = Separator::of(first).cells(first).join(", ");
+            return Err(MeasuredError::NoOutput { outputs: outputs.join(", "), found });
+        };
+        let (separator, roles) = (Separator::of(lines[heading].1), roles_of(lines[heading].1));
+        let names = separator.cells(lines[heading].1);
         for (at, name) in names.iter().enumerate() {
             if roles[at] != MeasuredColumn::Ignored && names[..at].contains(name) {
                 return Err(MeasuredError::Twice(name.clone()));
             }
         }
-        if !roles.iter().any(|role| matches!(role, MeasuredColumn::Output(_))) {
-            return Err(MeasuredError::NoOutput(outputs.join(", ")));
-        }
-        let commas = !first.contains('\t') && first.contains(',');
         let mut table = Self {
             loops: roles.iter().filter_map(|role| role.of_loop()).collect(),
             places: Vec::new(),
             data: Vec::new(),
             ignored: names_of(&names, &roles, MeasuredColumn::Ignored),
         };
-        for (line, text) in lines {
-            let cells: Vec<&str> = match commas {
-                true => text.split(',').map(str::trim).collect(),
-                false => text.split_whitespace().collect(),
-            };
+        let rows = &lines[heading + 1..];
+        // Points of other columns than commas separate are decimal, and so are their commas.
+        let has_points = rows.iter().any(|(_, text)| text.contains('.'));
+        let decimal_comma = separator != Separator::Comma && !has_points;
+        for &(line, text) in rows {
+            let mut cells = separator.cells_of_row(text, names.len());
+            if decimal_comma {
+                cells.iter_mut().for_each(|cell| *cell = cell.replacen(',', ".", 1));
+            }
             if cells.len() != names.len() {
                 let (found, expected) = (cells.len(), names.len());
                 return Err(MeasuredError::Width { line, found, expected });
@@ -180,17 +204,19 @@ impl MeasuredTable {
     fn add(
         &mut self,
         line: usize,
-        cells: &[&str],
+        cells: &[String],
         names: &[String],
         roles: &[MeasuredColumn],
     ) -> Result<(), MeasuredError> {
         let row = self.places.len() + 1;
         let number = |at: usize, expected, good: fn(f64) -> bool| {
-            let value = cells[at].parse().ok().filter(|value| good(*value));
+            // An empty cell is a missing value.
+            let text = if cells[at].is_empty() { "nan" } else { &cells[at] };
+            let value = text.parse().ok().filter(|value| good(*value));
             value.ok_or_else(|| MeasuredError::LoopCell {
                 line,
                 column: names[at].clone(),
-                text: cells[at].to_owned(),
+                text: cells[at].clone(),
                 expected,
             })
         };
@@ -200,7 +226,7 @@ impl MeasuredTable {
         let mut common = 1.0;
         for (at, role) in roles.iter().enumerate() {
             match role {
-                MeasuredColumn::Loop(_) => place.push(cells[at].to_owned()),
+                MeasuredColumn::Loop(_) => place.push(cells[at].clone()),
                 MeasuredColumn::Output(output) => {
                     let value = number(at, "a number", |v| v.is_nan() || v.is_finite())?;
                     values.push((*output, value));
@@ -277,20 +303,12 @@ impl MeasuredColumn {
     }
 }
 
-fn names(line: &str) -> Vec<String> {
-    let line = line.trim_end();
-    let names: Vec<&str> = if line.contains('\t') {
-        line.split('\t').collect()
-    } else if line.contains(',') {
-        line.split(',').collect()
-    } else {
-        line.split_whitespace().collect()
-    };
-    names.into_iter().map(|name| name.trim().to_owned()).collect()
-}
-
 fn role(name: &str, loops: &[String], outputs: &[String]) -> MeasuredColumn {
-    let find = |list: &[String], name: &str| list.iter().position(|each| each == name);
+    let exact = |list: &[String], name: &str| list.iter().position(|each| each == name);
+    let bare = |list: &[String], name: &str| {
+        list.iter().position(|each| each.eq_ignore_ascii_case(without_unit(name)))
+    };
+    let find = |list: &[String], name: &str| exact(list, name).or_else(|| bare(list, name));
     let inner = name.strip_prefix("sigma(").and_then(|rest| rest.strip_suffix(')'));
     if let Some(at) = find(outputs, name) {
         MeasuredColumn::Output(at)
@@ -299,7 +317,7 @@ fn role(name: &str, loops: &[String], outputs: &[String]) -> MeasuredColumn {
     } else if let Some(at) = inner.and_then(|label| find(outputs, label)) {
         MeasuredColumn::Sigma(at)
     } else {
-        match name {
+        match without_unit(name) {
             "sigma" => MeasuredColumn::SigmaOfAll,
             "weight" => MeasuredColumn::Weight,
             _ => MeasuredColumn::Ignored,
@@ -358,10 +376,27 @@ mod tests {
     }
 
     #[test]
+    fn headings_of_instruments_are_read() {
+        for text in [
+            "\"angle\",\"R\"\n0.1,4\n0.2,5.5\n",
+            "angle;R\n0,1;4\n0,2;5,5\n",
+            "angle\tR\n0,1\t4\n0,2\t5,5\n",
+            "angle [deg],R [1/sr]\n0.1,4\n0.2,5.5\n",
+            "Angle (deg);r\n0.1;4\n0.2;5.5\n",
+            "Instrument: X\nDate: 2024-01-01, noon\nangle,R,\n0.1,4,\n0.2,5.5,\n",
+        ] {
+            let table = MeasuredTable::parse(text, &titles(), &[]).unwrap();
+            let values: Vec<f64> = table.data().iter().map(|datum| datum.value).collect();
+            assert_eq!(values, [4.0, 5.5], "{text}");
+            assert_eq!(table.locate(&rows(), &titles()[0]).unwrap(), [0, 1], "{text}");
+        }
+    }
+
+    #[test]
     fn tables_that_do_not_fit_are_refused() {
         let parse = |text| MeasuredTable::parse(text, &titles(), &[]);
         assert_eq!(parse(" \n"), Err(MeasuredError::Empty));
-        assert!(matches!(parse("angle\n1\n"), Err(MeasuredError::NoOutput(_))));
+        assert!(matches!(parse("angle\n1\n"), Err(MeasuredError::NoOutput { .. })));
         assert!(matches!(parse("R R\n1 1\n"), Err(MeasuredError::Twice(_))));
         assert!(matches!(parse("R angle\n1\n"), Err(MeasuredError::Width { line: 2, .. })));
         assert!(matches!(parse("R\n1,5\n"), Err(MeasuredError::LoopCell { line: 2, .. })));

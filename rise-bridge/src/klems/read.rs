@@ -21,31 +21,27 @@ pub struct KlemsBlock {
 /// If the basis or the order of rows differs, or numbers are missing.
 pub fn read(text: &str) -> Result<Vec<KlemsBlock>, ExportError> {
     let refused = |problem: &str| ExportError::refused("Klems file", problem);
-    if !text.contains(&format!("<AngleBasisName>{BASIS}</AngleBasisName>"))
-        || !text.contains("<IncidentDataStructure>Columns</IncidentDataStructure>")
-    {
-        return Err(refused("expected the basis LBNL/Klems Full with columns"));
+    let is = |tag: &str, expected: &str| inside(text, tag).is_some_and(|found| found == expected);
+    if !is("AngleBasisName", BASIS) {
+        let found = inside(text, "AngleBasisName").unwrap_or("none");
+        return Err(refused(&format!("the basis is {found}; expected {BASIS}")));
+    }
+    if !is("IncidentDataStructure", "Columns") {
+        let found = inside(text, "IncidentDataStructure").unwrap_or("missing");
+        return Err(refused(&format!("IncidentDataStructure is {found}; expected Columns")));
     }
     let count: usize = RINGS.iter().map(|ring| ring.1).sum();
     let mut blocks = Vec::new();
     for piece in text.split("<WavelengthData>").skip(1) {
-        let inside = |tag: &str| {
-            // The tag without or with attributes, but no other tag with the same beginning.
-            let whole = piece.split_once(&format!("<{tag}>"));
-            let rest = match whole {
-                Some((_, rest)) => rest,
-                None => piece.split_once(&format!("<{tag} "))?.1.split_once('>')?.1,
-            };
-            Some(rest.split_once(&format!("</{tag}>"))?.0)
-        };
-        let part = |tag: &str| inside(tag).ok_or_else(|| refused(&format!("{tag} is missing")));
-        let numbers: Result<Vec<f64>, _> = part("ScatteringData")?
-            .split([',', '\n', ' '])
-            .filter(|word| !word.is_empty())
-            .map(str::parse)
-            .collect();
-        let numbers =
-            numbers.map_err(|_| refused("ScatteringData has a word that is not a number"))?;
+        let part =
+            |tag: &str| inside(piece, tag).ok_or_else(|| refused(&format!("{tag} is missing")));
+        let mut numbers = Vec::with_capacity(count * count);
+        let words = part("ScatteringData")?.split(|c: char| c == ',' || c.is_whitespace());
+        for word in words.filter(|word| !word.is_empty()) {
+            let number: Result<f64, _> = word.parse();
+            let wrong = |_| refused(&format!("ScatteringData: {word:?} is not a number"));
+            numbers.push(number.map_err(wrong)?);
+        }
         if numbers.len() != count * count {
             return Err(refused(&format!("{} numbers of {}", numbers.len(), count * count)));
         }
@@ -54,4 +50,18 @@ pub fn read(text: &str) -> Result<Vec<KlemsBlock>, ExportError> {
         blocks.push(KlemsBlock { band: band.to_owned(), side: side.to_owned(), values });
     }
     Ok(blocks)
+}
+
+/// The content of the first element called `tag`, with or without attributes, without the white
+/// space around it.
+fn inside<'t>(text: &'t str, tag: &str) -> Option<&'t str> {
+    let mut rest = text;
+    loop {
+        rest = rest.split_once(&format!("<{tag}"))?.1;
+        // No other tag with the same beginning.
+        if rest.starts_with(|c: char| c == '>' || c.is_whitespace()) {
+            let content = rest.split_once('>')?.1;
+            return Some(content.split_once(&format!("</{tag}"))?.0.trim());
+        }
+    }
 }

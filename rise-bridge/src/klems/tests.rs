@@ -75,6 +75,42 @@ fn the_error_is_zero_for_a_diffuser_and_grows_as_the_lobe_narrows() {
     assert!(wide.median > 0.01 && 2.0 * wide.median < narrow.median, "{wide:?} {narrow:?}");
 }
 
+/// A file of one block with the white space of WINDOW and genBSDF: tabs, carriage returns, a
+/// comma behind every number.
+fn with_tabs() -> String {
+    let row = |value: f64| vec![format!("{value:.6},\t"); 145].concat();
+    let rows: Vec<String> = (0..145).map(|k| row(0.001 * f64::from(k))).collect();
+    let head = "<?xml version=\"1.0\"?>\r\n<WindowElement>\r\n\t<DataDefinition>\r\n\
+        \t\t<IncidentDataStructure>Columns</IncidentDataStructure>\r\n\
+        \t\t<AngleBasis>\r\n\t\t<AngleBasisName>LBNL/Klems Full</AngleBasisName>\r\n\
+        \t</AngleBasis></DataDefinition>\r\n";
+    format!(
+        "{head}\t<WavelengthData>\r\n\t\t<LayerNumber>System</LayerNumber>\r\n\
+         \t\t<Wavelength unit=\"Integral\">Visible</Wavelength>\r\n\
+         \t<WavelengthDataBlock>\r\n\
+         \t\t<WavelengthDataDirection>\r\n\tTransmission Front\r\n</WavelengthDataDirection>\r\n\
+         \t\t<ScatteringDataType>BTDF</ScatteringDataType>\r\n\
+         \t\t<ScatteringData>\r\n{}\r\n\t\t</ScatteringData>\r\n\
+         \t</WavelengthDataBlock>\r\n\t</WavelengthData>\r\n</WindowElement>\r\n",
+        rows.join("\r\n")
+    )
+}
+
+#[test]
+fn white_space_of_all_kinds_is_read() {
+    let blocks = read(&with_tabs()).unwrap();
+    assert_eq!(blocks.len(), 1);
+    assert_eq!(
+        (blocks[0].band.as_str(), blocks[0].side.as_str()),
+        ("Visible", "Transmission Front")
+    );
+    assert_eq!((blocks[0].values[7][0], blocks[0].values[144][144]), (0.007, 0.144));
+    let wrong = read(&with_tabs().replace("0.007000,\t", "x,\t")).unwrap_err().to_string();
+    assert!(wrong.contains("\"x\" is not a number"), "{wrong}");
+    let half = with_tabs().replace("Klems Full", "Klems Half");
+    assert!(read(&half).unwrap_err().to_string().contains("LBNL/Klems Half; expected"));
+}
+
 #[test]
 fn other_files_are_refused() {
     assert!(read("<WindowElement/>").is_err());

@@ -16,7 +16,7 @@ mod nodes;
 mod table;
 mod write;
 
-pub use compare::{BandDifference, PbsdfComparison, compare};
+pub use compare::{BandDifference, PbsdfComparison, StokesSigns, compare};
 pub use interpolation_error::{MuellerInterpolationError, choose_axes, interpolation_error};
 pub use models::{STOCK_WAVELENGTHS, bands};
 pub use table::PbsdfTable;

@@ -44,6 +44,61 @@ pub struct BandDifference {
     pub mean: f64,
     /// The largest difference of an element at a node, over M00 there.
     pub largest: f64,
+    /// Σ |ΔM_ij| / Σ M00 of each element, row by row, with the weights of `mean`.
+    pub elements: [f64; 16],
+    /// Σ_ij Σ |ΔM_ij| / Σ M00 after the table was brought to each of [`StokesSigns::ALL`].
+    pub by_signs: [f64; 4],
+}
+
+/// Signs of Stokes components in a table, against those of the format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StokesSigns {
+    /// Those of the format: V > 0 turns clockwise seen towards the light.
+    Same,
+    /// The opposite sign of V: the other hand of circular polarization.
+    OtherV,
+    /// The opposite sign of U: the azimuth of polarization is counted the other way.
+    OtherU,
+    /// The opposite signs of U and V: a mirrored frame.
+    OtherUAndV,
+}
+
+impl StokesSigns {
+    /// Every choice.
+    pub const ALL: [Self; 4] = [Self::Same, Self::OtherV, Self::OtherU, Self::OtherUAndV];
+
+    /// The sign of the element in `row` and `column` under this choice.
+    fn of(self, row: usize, column: usize) -> f64 {
+        let flips = |component: usize| match self {
+            Self::Same => false,
+            Self::OtherV => component == 3,
+            Self::OtherU => component == 2,
+            Self::OtherUAndV => component >= 2,
+        };
+        if flips(row) == flips(column) { 1.0 } else { -1.0 }
+    }
+}
+
+impl PbsdfComparison {
+    /// The choice of signs with which the table comes nearest to the material, over all
+    /// wavelengths; [`StokesSigns::Same`] unless another one halves the difference.
+    pub fn signs(&self) -> StokesSigns {
+        let total = |k: usize| self.found.iter().map(|band| band.by_signs[k]).sum::<f64>();
+        let all = (1..4).map(|k| (k, total(k)));
+        let best = all.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|best| best.1 < 0.5 * total(0));
+        best.map_or(StokesSigns::Same, |(k, _)| StokesSigns::ALL[k])
+    }
+
+    /// Row, column and mean difference over M00 of the elements that differ by more than `least`,
+    /// over all wavelengths, the largest first.
+    pub fn different_elements(&self, least: f64) -> Vec<(usize, usize, f64)> {
+        let bands = self.found.len().max(1) as f64;
+        let mean = |e: usize| self.found.iter().map(|band| band.elements[e]).sum::<f64>() / bands;
+        let mut all: Vec<_> = (0..16).map(|e| (e / 4, e % 4, mean(e))).collect();
+        all.retain(|(_, _, difference)| *difference > least);
+        all.sort_by(|a, b| b.2.total_cmp(&a.2));
+        all
+    }
 }
 
 /// DifferenceSums at one wavelength.
@@ -53,6 +108,8 @@ struct DifferenceSums {
     ours: f64,
     difference: f64,
     largest: f64,
+    elements: [f64; 16],
+    by_signs: [f64; 4],
 }
 
 /// Counts and sums of a part of the table.
@@ -104,6 +161,8 @@ pub fn compare<R: Read + Seek>(
         brightness: sums.theirs / sums.ours,
         mean: sums.difference / sums.ours,
         largest: sums.largest,
+        elements: sums.elements.map(|sum| sum / sums.ours),
+        by_signs: sums.by_signs.map(|sum| sum / sums.ours),
     };
     Ok(PbsdfComparison {
         nm: header.axes[3].clone(),
@@ -165,6 +224,16 @@ impl DifferenceSums {
         self.theirs += weight * theirs[(0, 0)];
         self.ours += weight * ours[(0, 0)];
         self.difference += weight * difference[(0, 0)].abs();
+        for (e, sum) in self.elements.iter_mut().enumerate() {
+            *sum += weight * difference[(e / 4, e % 4)].abs();
+        }
+        for (signs, sum) in StokesSigns::ALL.iter().zip(&mut self.by_signs) {
+            let of = |e: usize| {
+                let at = (e / 4, e % 4);
+                (signs.of(at.0, at.1) * theirs[at] - ours[at]).abs()
+            };
+            *sum += weight * (0..16).map(of).sum::<f64>();
+        }
         // Subnormal 32-bit numbers lose digits.
         if ours[(0, 0)] > f64::from(f32::MIN_POSITIVE) {
             self.largest = self.largest.max(difference.largest() / ours[(0, 0)]);
@@ -182,6 +251,8 @@ impl DifferenceTally {
             sum.ours += more.ours;
             sum.difference += more.difference;
             sum.largest = sum.largest.max(more.largest);
+            sum.elements.iter_mut().zip(more.elements).for_each(|(sum, more)| *sum += more);
+            sum.by_signs.iter_mut().zip(more.by_signs).for_each(|(sum, more)| *sum += more);
         }
     }
 }
