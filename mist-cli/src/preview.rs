@@ -143,7 +143,15 @@ pub(super) fn preview(args: &PreviewArgs, reporter: &Reporter) -> Result<(), Com
     let [width, height] = [film.size[0] * (1 + usize::from(args.side_by_side)), film.size[1]];
     print(&format!("{}: {width} × {height} pixels\n", args.output.display()))?;
     let [plain, seen] = [Polarization::All, filter].map(|filter| brightest(&film, filter));
-    print(&format!("brightest pixel: {plain:.4} without a filter, {seen:.4} in the picture\n"))
+    print(&format!("brightest pixel: {plain:.4} without a filter, {seen:.4} in the picture\n"))?;
+    let shown = seen * args.exposure;
+    if format == PictureFormat::Png && shown > 1.0 {
+        print(&format!(
+            "pixels brighter than white keep their hue; --exposure {:.3} shows their brightness\n",
+            args.exposure / shown
+        ))?;
+    }
+    Ok(())
 }
 
 impl PreviewArgs {

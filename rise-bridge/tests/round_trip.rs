@@ -197,6 +197,25 @@ fn the_picture_shows_every_swatch_and_every_curve() {
 }
 
 #[test]
+fn a_reflectance_of_one_is_white_and_brighter_colours_state_their_exposure() {
+    let mut table = full();
+    (table.quantity, table.space) = ("reflectance 1".into(), "sRGB".into());
+    for (row, value) in table.rows.iter_mut().zip([0.25, 0.5, 1.0, 0.1, 0.1, 0.1]) {
+        row.rgb[0] = [value; 3];
+        row.xyz[0] = [0.9505 * value, value, 1.0888 * value];
+    }
+    let svg = write::plot(&table);
+    assert_eq!(svg.matches("fill=\"#ffffff\"").count(), 1);
+    // sRGB of 0.25 and 0.5.
+    assert!(svg.contains("fill=\"#898989\"") && svg.contains("fill=\"#bcbcbc\""), "{svg}");
+    assert!(svg.contains("white is a perfect diffuser") && !svg.contains("brighter"));
+    table.rows[0].rgb[0] = [4.0, 2.0, 0.0];
+    let svg = write::plot(&table);
+    assert!(svg.contains("fill=\"#ffbc00\"") && svg.contains("exposure 0.25"), "{svg}");
+    assert!(svg.contains("1 are brighter than white"), "{svg}");
+}
+
+#[test]
 fn whatever_is_read_is_written_and_read_again() {
     let table = full();
     let grid = write::mtab(&table, EXACT).unwrap();

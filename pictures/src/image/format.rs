@@ -49,7 +49,7 @@ impl Image {
         }
     }
 
-    /// The bytes of a file with the picture. PNG holds encoded values clipped to 0 … 1 in eight
+    /// The bytes of a file with the picture. PNG holds encoded values in 0 … 1, linear colours brighter than 1 at a lower exposure, in eight
     /// bits; EXR and PFM hold linear ones.
     ///
     /// # Errors
@@ -103,6 +103,10 @@ mod tests {
         let linear = Image::new([2, 1], 1, vec![0.5, 3.0], Encoding::Linear).unwrap();
         let png = Image::read(&linear.write(PictureFormat::Png).unwrap()).unwrap();
         assert_eq!(png.values(), [188.0 / 255.0, 1.0]);
+        // Colours brighter than white keep the ratios of their channels.
+        let bright = Image::new([1, 1], 3, vec![4.0, 2.0, 0.0], Encoding::Linear).unwrap();
+        let png = Image::read(&bright.write(PictureFormat::Png).unwrap()).unwrap();
+        assert_eq!(png.values(), [1.0, 188.0 / 255.0, 0.0]);
     }
 
     #[test]

@@ -42,6 +42,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, ImageError> {
     Image::new(size, channels, values, Encoding::Srgb)
 }
 
+/// A linear colour whose brightest channel is at most 1: brighter ones keep their hue.
+fn exposed(pixel: &[f32]) -> [f32; 3] {
+    let brightest = pixel.iter().copied().filter(|v| v.is_finite()).fold(1.0, f32::max);
+    [0, 1, 2].map(|channel| pixel[channel] / brightest)
+}
+
 pub(super) fn write(image: &Image) -> Result<Vec<u8>, ImageError> {
     let size = ImageError::Size { width: image.width, height: image.height };
     let (Ok(width), Ok(height)) = (u32::try_from(image.width), u32::try_from(image.height)) else {
@@ -55,7 +61,12 @@ pub(super) fn write(image: &Image) -> Result<Vec<u8>, ImageError> {
         // The value is clipped to the range of u8; the cast truncates.
         (255.0 * encoded.clamp(0.0, 1.0) + 0.5) as u8
     };
-    let data: Vec<u8> = image.values.iter().map(|v| byte(*v)).collect();
+    let data: Vec<u8> = match (image.encoding, image.channels) {
+        (Encoding::Linear, 3) => {
+            image.values.chunks_exact(3).flat_map(|pixel| exposed(pixel).map(byte)).collect()
+        }
+        _ => image.values.iter().map(|v| byte(*v)).collect(),
+    };
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
     encoder.set_color(if image.channels == 1 { ColorType::Grayscale } else { ColorType::Rgb });

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use mist_engine::colour::ColourTable;
+use mist_format::number::general;
 use spectra::{Adaptation, Matrix3, RgbSpace, Xyz};
 
 /// The conversion from linear RGB of a table to sRGB.
@@ -10,6 +11,8 @@ pub(super) struct DisplayColours {
     space: RgbSpace,
     adapt: Matrix3,
     scale: f64,
+    /// The luminance that is shown as white, if it is not that of a perfect diffuser.
+    brightest: Option<f64>,
 }
 
 impl DisplayColours {
@@ -20,7 +23,11 @@ impl DisplayColours {
         let adapt = Adaptation::Bradford.matrix(space.white(), srgb.white());
         // A space without a valid white is shown unadapted.
         let adapt = adapt.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-        Self { space, adapt, scale: scale(table) }
+        let brightest = brightest(table);
+        let is_brdf = table.quantity.split(' ').next() == Some("brdf");
+        // A perfect diffuser has the BRDF 1/π, the factor 1, the reflectance 1.
+        let scale = brightest.map_or(if is_brdf { PI } else { 1.0 }, |luminance| 1.0 / luminance);
+        Self { space, adapt, scale, brightest }
     }
 
     /// Colour of row `at` as `#rrggbb`.
@@ -38,24 +45,35 @@ impl DisplayColours {
 
     /// sRGB of row `at`; colours brighter than white keep their hue.
     fn bytes(&self, table: &ColourTable, at: usize) -> [u8; 3] {
+        let exposure = self.exposure(table, at);
+        RgbSpace::srgb().encode_u8(self.linear(table, at).map(|v| v * exposure))
+    }
+
+    /// Linear sRGB of row `at`, white = 1.
+    fn linear(&self, table: &ColourTable, at: usize) -> [f64; 3] {
         let xyz = self.space.xyz(table.rows[at].rgb[0]);
         let [x, y, z] = self.adapt.map(|[a, b, c]| a * xyz.x + b * xyz.y + c * xyz.z);
-        let srgb = RgbSpace::srgb();
-        let linear = srgb.linear(Xyz::new(x, y, z)).map(|v| v * self.scale);
-        let brightest = linear.iter().copied().fold(1.0, f64::max);
-        srgb.encode_u8(linear.map(|v| v / brightest))
+        RgbSpace::srgb().linear(Xyz::new(x, y, z)).map(|v| v * self.scale)
+    }
+
+    /// The exposure of row `at`: 1, or less for a colour that is brighter than white.
+    pub(super) fn exposure(&self, table: &ColourTable, at: usize) -> f64 {
+        1.0 / self.linear(table, at).iter().copied().fold(1.0, f64::max)
+    }
+
+    /// What white is, for the subtitle.
+    pub(super) fn white(&self) -> String {
+        match self.brightest {
+            None => "white is a perfect diffuser".to_owned(),
+            Some(luminance) => format!("white is the brightest row, Y = {}", general(luminance, 4)),
+        }
     }
 }
 
-/// The factor by which the quantity of a perfect diffuser becomes 1.
-fn scale(table: &ColourTable) -> f64 {
-    match table.quantity.split(' ').next() {
-        Some("brdf") => PI,
-        Some("factor") => 1.0,
-        // Fractions of flux and radiances have no diffuser to compare with: the brightest is white.
-        _ => {
-            let brightest = table.rows.iter().map(|row| row.xyz[0][1]).fold(0.0, f64::max);
-            if brightest > 0.0 { 1.0 / brightest } else { 1.0 }
-        }
-    }
+/// The luminance of the row that is shown as white, for radiances: they have no diffuser to compare
+/// with.
+fn brightest(table: &ColourTable) -> Option<f64> {
+    let is_radiance = table.quantity.split(' ').next() == Some("radiance");
+    let luminances = table.rows.iter().map(|row| row.xyz[0][1]);
+    is_radiance.then(|| luminances.fold(0.0, f64::max)).filter(|luminance| *luminance > 0.0)
 }

@@ -41,8 +41,9 @@ impl GraphAxes {
 
     pub(super) fn y(&self, value: f64) -> f64 {
         let [low, high] = self.values;
+        let value = value.max(low);
         let part = if self.logarithmic {
-            (value.max(low) / low).ln() / (high / low).ln()
+            (value / low).ln() / (high / low).ln()
         } else {
             (value - low) / (high - low)
         };
@@ -71,7 +72,19 @@ pub(super) fn draw(
         .filter(|&row| table.rows[row].spectra[0].len() == table.wavelengths.len())
         .collect();
     let axes = axes(table, &shown, top);
-    draw_axes(&axes, &table.quantity, svg);
+    let of = match (shown.len(), table.rows.len()) {
+        (some, all) if some < all => format!("{}, {some} of {all} rows", table.quantity),
+        _ => table.quantity.clone(),
+    };
+    let below = shown.iter().flat_map(|&row| &table.rows[row].spectra[0]);
+    let cut = below.filter(|value| **value < axes.values[0]).count();
+    let cut = match cut {
+        0 => String::new(),
+        count => {
+            format!("; axis cut: {count} values below {} lie on it", general(axes.values[0], 3))
+        }
+    };
+    draw_axes(&axes, &(of + &cut), svg);
     for row in shown {
         let values = &table.rows[row].spectra[0];
         let points: String = table

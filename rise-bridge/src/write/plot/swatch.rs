@@ -32,7 +32,9 @@ pub(super) fn draw(
     let columns = evenly_spaced(across, MOST);
     let side = ((WIDTH - 2.0 * MARGIN) / columns.len().max(1) as f64).min(SIDE);
     text(svg, (MARGIN, top + 10.0), "fill=\"#555\"", &caption(table, side));
-    let top = top + 20.0;
+    let bright = brighter(table, display);
+    text(svg, (MARGIN, top + 25.0), "fill=\"#555\"", &bright);
+    let top = top + if bright.is_empty() { 20.0 } else { 35.0 };
     let lines = evenly_spaced(down, MOST);
     for (j, &line) in lines.iter().enumerate() {
         for (i, &column) in columns.iter().enumerate() {
@@ -64,6 +66,22 @@ fn caption(table: &ColourTable, side: f64) -> String {
     format!("{} colours {order}, point at one for its angles{hint}", table.rows.len())
 }
 
+/// The line about colours that are brighter than white; empty if there are none.
+fn brighter(table: &ColourTable, display: &DisplayColours) -> String {
+    let exposures = (0..table.rows.len()).map(|at| display.exposure(table, at));
+    let (count, least) = exposures
+        .filter(|exposure| *exposure < 1.0)
+        .fold((0, 1.0_f64), |(count, least), exposure| (count + 1, least.min(exposure)));
+    if count == 0 {
+        return String::new();
+    }
+    format!(
+        "{count} are brighter than white: shown with their hue at a lower exposure (the number \
+         behind the cross), down to × {}",
+        general(least, 3)
+    )
+}
+
 fn square(
     table: &ColourTable,
     display: &DisplayColours,
@@ -81,14 +99,20 @@ fn square(
     let _ = writeln!(
         svg,
         "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{side:.1}\" height=\"{side:.1}\" fill=\"{}\">\
-         <title>{}I {}</title></rect>",
+         <title>{}I {} exposure {}</title></rect>",
         display.hex(table, at),
         title.replace('&', "&amp;").replace('<', "&lt;"),
         general(intensity, 4),
+        general(display.exposure(table, at), 3),
     );
     if side >= LABELLED {
         let ink = if display.is_dark(table, at) { "#fff" } else { "#000" };
         let place = (x + 5.0, y + side - 6.0);
-        text(svg, place, &format!("font-size=\"10\" fill=\"{ink}\""), &general(intensity, 3));
+        let style = format!("font-size=\"10\" fill=\"{ink}\"");
+        text(svg, place, &style, &general(intensity, 3));
+        let exposure = display.exposure(table, at);
+        if exposure < 1.0 {
+            text(svg, (x + 5.0, y + 13.0), &style, &format!("× {}", general(exposure, 2)));
+        }
     }
 }

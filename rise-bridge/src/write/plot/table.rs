@@ -31,8 +31,12 @@ pub fn plot(table: &ColourTable) -> String {
     );
     text(&mut svg, (MARGIN, 32.0), "font-size=\"20\"", &table.material);
     let subtitle = format!(
-        "{}, {} observer, {}, {} adaptation; colours on the scale on which a perfect diffuser is white",
-        table.illuminant, table.observer, table.space, table.adaptation
+        "{}, {} observer, {}, {} adaptation; {}",
+        table.illuminant,
+        table.observer,
+        table.space,
+        table.adaptation,
+        display.white()
     );
     text(&mut svg, (MARGIN, 50.0), "fill=\"#555\"", &subtitle);
     svg + &body + "</svg>\n"
