@@ -61,7 +61,7 @@ impl DisplayColours {
         1.0 / self.linear(table, at).iter().copied().fold(1.0, f64::max)
     }
 
-    /// What white is, for the subtitle.
+    /// A phrase about white, for the subtitle.
     pub(super) fn white(&self) -> String {
         match self.brightest {
             None => "white is a perfect diffuser".to_owned(),
