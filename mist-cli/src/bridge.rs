@@ -97,6 +97,9 @@ fn told(folder: &Path, made: &BridgeFiles) -> String {
     for scene in &made.scenes {
         text += &format!("{}\n", folder.join(scene).display());
     }
+    for note in &made.invented {
+        text += &format!("invented: {note}\n");
+    }
     for reason in &made.skipped {
         text += &format!("not converted: {reason}\n");
     }

@@ -28,6 +28,9 @@ pub(super) fn deferred(args: &BridgeArgs, source: &InputText) -> Result<(), Comm
     let plan = deferred::plan(&source.text, &stem, &*files, args.derive, args.finer);
     let plan = plan.map_err(not_exported)?;
     save(&args.out, &plan.files)?;
+    for note in plan.invented() {
+        print(&format!("invented: {note}\n"))?;
+    }
     for reason in &plan.skipped {
         print(&format!("left black: {reason}\n"))?;
     }

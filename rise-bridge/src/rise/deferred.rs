@@ -124,6 +124,15 @@ pub fn plan(
 }
 
 impl DeferredPlan {
+    /// Values that were invented, after the name of the material.
+    pub fn invented(&self) -> impl Iterator<Item = String> {
+        let notes = |material: &SceneMaterial| {
+            let name = material.name.clone();
+            material.invented.clone().into_iter().map(move |note| format!("{name}: {note}"))
+        };
+        self.materials.iter().flat_map(notes)
+    }
+
     /// The scenes to render.
     pub fn scenes(&self) -> impl Iterator<Item = &str> {
         self.files.keys().map(String::as_str).filter(|name| name.ends_with(".RISEscene"))

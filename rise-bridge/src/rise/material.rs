@@ -15,7 +15,10 @@
 //! | `lambertian_material` | `Lambertian_BRDF_Model`, reflectance over wavelength |
 //! | `cooktorrance_material` | facets with Gaussian slopes, s = `facets` (Beckmann's m), shadowed by Torrance and Sparrow; a diffuse part `rd` beside it |
 //! | `ggx_material` | facets with the slopes of ellipsoids, rz/rx = α; with `fresnel_mode thinfilm` a film on them; a diffuse part `rd` beside it |
+//!
+//! A diffuse colour in RGB becomes a smooth reflectance with this colour, which is invented.
 
+mod colour;
 mod derived;
 mod painter;
 
@@ -46,6 +49,8 @@ pub struct SceneMaterial {
     pub material: Material,
     /// The polarizer of a second table.
     pub filter: Option<SurfacePolarizer>,
+    /// Values that the scene does not contain and that were invented.
+    pub invented: Vec<String>,
 }
 
 /// The materials of `chunks` with comments for mist; with `derive`, also those that RISE's own
@@ -68,11 +73,12 @@ pub fn scene_materials(
             found.push(commented(chunk, number, files)?);
         } else if derive {
             match derived::material(chunk, chunks, files) {
-                Ok(material) => found.push(SceneMaterial {
+                Ok(derived) => found.push(SceneMaterial {
                     name: safe_name(chunk)?,
                     chunk: number,
-                    material,
+                    material: derived.material,
                     filter: None,
+                    invented: derived.invented,
                 }),
                 Err(error) => skipped.push(format!("{}: {error}", chunk.name())),
             }
@@ -124,5 +130,11 @@ fn commented(
     let mut material =
         material.ok_or_else(|| wrong("expected model = NAME or material = FILE.json".into()))?;
     material.parameters.extend(parameters);
-    Ok(SceneMaterial { name: safe_name(chunk)?, chunk: number, material, filter })
+    Ok(SceneMaterial {
+        name: safe_name(chunk)?,
+        chunk: number,
+        material,
+        filter,
+        invented: Vec::new(),
+    })
 }

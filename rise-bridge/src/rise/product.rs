@@ -67,6 +67,8 @@ pub fn make(
     let mut output = BridgeFiles { skipped, ..BridgeFiles::default() };
     let mut tables = Vec::new();
     for (number, material) in materials.iter().enumerate() {
+        let notes = material.invented.iter().map(|note| format!("{}: {note}", material.name));
+        output.invented.extend(notes);
         tables.push(make_tables(material, stem, files, options, control, &mut output)?);
         control.report((number + 1) as f64 / materials.len() as f64);
     }

@@ -6,7 +6,8 @@ use mist_engine::{Files, material::Material};
 
 use super::{
     super::scene::SceneChunk,
-    painter::{SpectralValue, colour, scalar},
+    colour::colour,
+    painter::{SpectralValue, scalar},
 };
 use crate::export::ExportError;
 
@@ -15,6 +16,13 @@ use crate::export::ExportError;
 struct MaterialDraft {
     parameters: Vec<(String, String)>,
     files: BTreeMap<String, String>,
+    invented: Vec<String>,
+}
+
+/// A model with the values that were invented for it.
+pub(super) struct DerivedMaterial {
+    pub(super) material: Material,
+    pub(super) invented: Vec<String>,
 }
 
 impl MaterialDraft {
@@ -41,11 +49,18 @@ impl MaterialDraft {
 
     /// The text of a number; values over wavelength become a file.
     fn table(&mut self, file: &str, values: &SpectralValue) -> String {
+        let mut text = String::new();
         let points = match values {
             SpectralValue::Flat(value) => return value.to_string(),
             SpectralValue::Over(points) => points,
+            SpectralValue::Invented { rgb: [r, g, b], points } => {
+                let note = format!("{file}: a smooth reflectance for the colour {r} {g} {b}");
+                let _ = writeln!(text, "; invented: {note} (linear Rec.709)");
+                self.invented.push(note);
+                points
+            }
         };
-        let mut text = String::from("; lambda_um value\n");
+        text += "; lambda_um value\n";
         for (nm, value) in points {
             let _ = writeln!(text, "{} {value}", nm / 1000.0);
         }
@@ -59,8 +74,10 @@ impl MaterialDraft {
         self.set(&format!("{prefix}reflectance.table"), table);
     }
 
-    fn model(self, model: &str) -> Material {
-        Material { model: model.to_owned(), parameters: self.parameters, files: self.files }
+    fn model(self, model: &str) -> DerivedMaterial {
+        let Self { parameters, files, invented } = self;
+        let material = Material { model: model.to_owned(), parameters, files };
+        DerivedMaterial { material, invented }
     }
 }
 
@@ -73,7 +90,7 @@ pub(super) fn material(
     chunk: &SceneChunk,
     chunks: &[SceneChunk],
     files: &dyn Files,
-) -> Result<Material, ExportError> {
+) -> Result<DerivedMaterial, ExportError> {
     match chunk.keyword.as_str() {
         "lambertian_material" => {
             let mut draft = MaterialDraft::default();
@@ -139,7 +156,7 @@ fn facets(
     chunks: &[SceneChunk],
     files: &dyn Files,
     shape: &[(&str, String)],
-) -> Result<Material, ExportError> {
+) -> Result<DerivedMaterial, ExportError> {
     let name = chunk.name();
     let value = |slot: &str| scalar(chunk, slot, chunks, files);
     if chunk.get("fresnel_mode").is_some_and(|mode| mode == "schlick_f0") {
@@ -155,7 +172,7 @@ fn facets(
         Some(SpectralValue::Over(points)) if points.iter().all(|p| p.1 == points[0].1) => {
             points[0].1
         }
-        Some(SpectralValue::Over(_)) => {
+        Some(_) => {
             let problem = "it varies over wavelength: express the colour of the lobe by ior and \
                            extinction";
             return Err(ExportError::refused("rs", problem));

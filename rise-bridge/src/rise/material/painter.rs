@@ -12,6 +12,13 @@ pub(super) enum SpectralValue {
     Flat(f64),
     /// Linear between these points, constant beyond them.
     Over(Vec<(f64, f64)>),
+    /// A smooth reflectance that was invented for a colour; otherwise as `Over`.
+    Invented {
+        /// The colour, linear Rec.709.
+        rgb: [f64; 3],
+        /// The reflectance.
+        points: Vec<(f64, f64)>,
+    },
 }
 
 impl SpectralValue {
@@ -19,7 +26,7 @@ impl SpectralValue {
     pub(super) fn at(&self, nm: f64) -> f64 {
         let points = match self {
             Self::Flat(value) => return *value,
-            Self::Over(points) => points,
+            Self::Over(points) | Self::Invented { points, .. } => points,
         };
         let high = points.partition_point(|point| point.0 < nm);
         match (high.checked_sub(1).and_then(|k| points.get(k)), points.get(high)) {
@@ -33,7 +40,9 @@ impl SpectralValue {
     pub(super) fn nm(&self) -> Vec<f64> {
         match self {
             Self::Flat(_) => Vec::new(),
-            Self::Over(points) => points.iter().map(|point| point.0).collect(),
+            Self::Over(points) | Self::Invented { points, .. } => {
+                points.iter().map(|point| point.0).collect()
+            }
         }
     }
 }
@@ -63,35 +72,7 @@ pub(super) fn scalar(
     Err(ExportError::refused(name, problem))
 }
 
-/// The colour in the slot `name` of `chunk` as reflectance over wavelength.
-pub(super) fn colour(
-    chunk: &SceneChunk,
-    name: &str,
-    chunks: &[SceneChunk],
-    files: &dyn Files,
-) -> Result<Option<SpectralValue>, ExportError> {
-    let Some(slot) = chunk.get(name).filter(|slot| *slot != "none") else { return Ok(None) };
-    if let Ok(painter) = painter(slot, "uniformcolor_painter", name, chunks) {
-        let words: Vec<&str> = painter.get("color").unwrap_or("1 1 1").split_whitespace().collect();
-        if let [r, g, b] = words[..]
-            && r == g
-            && g == b
-        {
-            return Ok(Some(SpectralValue::Flat(number(name, r)?)));
-        }
-        let problem = format!("{slot} is a colour, which is no spectrum: give a spectral_painter");
-        return Err(ExportError::refused(name, problem));
-    }
-    let painter = painter(slot, "spectral_painter", name, chunks)?;
-    if let Some(file) = painter.get("file") {
-        return Ok(Some(SpectralValue::Over(samples(name, &read(file, files)?)?)));
-    }
-    let points = painter.lines.iter().filter(|(key, _)| key == "cp").map(|(_, cp)| cp.as_str());
-    let points: Vec<&str> = points.collect();
-    Ok(Some(SpectralValue::Over(samples(name, &points.join("\n"))?)))
-}
-
-fn painter<'c>(
+pub(super) fn painter<'c>(
     slot: &str,
     keyword: &str,
     name: &str,
@@ -99,22 +80,25 @@ fn painter<'c>(
 ) -> Result<&'c SceneChunk, ExportError> {
     let found = chunks.iter().find(|chunk| chunk.keyword == keyword && chunk.name() == slot);
     found.ok_or_else(|| {
-        ExportError::refused(name, format!("{slot:?} is no number and no {keyword} of the scene"))
+        ExportError::refused(
+            name,
+            format!("{slot:?} is neither a number nor a {keyword} of the scene"),
+        )
     })
 }
 
-fn number(name: &str, text: &str) -> Result<f64, ExportError> {
+pub(super) fn number(name: &str, text: &str) -> Result<f64, ExportError> {
     let parsed = text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-    parsed.ok_or_else(|| ExportError::refused(name, format!("{text:?} is no number")))
+    parsed.ok_or_else(|| ExportError::refused(name, format!("{text:?} is not a number")))
 }
 
-fn read(file: &str, files: &dyn Files) -> Result<String, ExportError> {
+pub(super) fn read(file: &str, files: &dyn Files) -> Result<String, ExportError> {
     let text = files.read(file).map_err(|error| ExportError::refused(file, error.to_string()))?;
     Ok(text.to_string())
 }
 
 /// Lines `nm value`, sorted; `#` begins a comment.
-fn samples(name: &str, text: &str) -> Result<Vec<(f64, f64)>, ExportError> {
+pub(super) fn samples(name: &str, text: &str) -> Result<Vec<(f64, f64)>, ExportError> {
     let mut points = Vec::new();
     for line in text.lines() {
         let line = line.split('#').next().unwrap_or_default();

@@ -22,6 +22,8 @@ pub struct BridgeFiles {
     pub skipped: Vec<String>,
     /// Warnings of the materials.
     pub warnings: Vec<Warning>,
+    /// Values that were invented, after the name of the material.
+    pub invented: Vec<String>,
 }
 
 /// The names of the tables of one material.
