@@ -21,6 +21,7 @@ mod metrics;
 mod models;
 mod origin;
 mod page;
+mod preconditions;
 mod prepared_lobes;
 mod problem;
 mod program;

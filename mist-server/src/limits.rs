@@ -85,6 +85,9 @@ pub struct ServeLimits {
     /// Open connections.
     #[arg(long, default_value_t = 1024, value_name = "N")]
     pub max_connections: usize,
+    /// Open connections of one address; not for those that a proxy forwards.
+    #[arg(long, default_value_t = 128, value_name = "N")]
+    pub max_client_connections: usize,
     /// Seconds in which the head of a request must be sent, then its body, and in which something
     /// of the answer must be read.
     #[arg(long, default_value_t = 60.0, value_name = "SECONDS")]

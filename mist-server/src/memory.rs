@@ -1,6 +1,6 @@
 //! The budget of memory for bodies and for tables that are being made.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
@@ -24,6 +24,17 @@ pub(crate) struct MemoryBudget {
 pub(crate) struct Reservation(
     #[expect(dead_code, reason = "gives back when it is dropped")] OwnedSemaphorePermit,
 );
+
+/// Reservations of one request, held until it is answered; clones share them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct HeldMemory(Arc<Mutex<Vec<Reservation>>>);
+
+impl HeldMemory {
+    /// Holds a reservation.
+    pub(crate) fn add(&self, reservation: Reservation) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(reservation);
+    }
+}
 
 /// The reason why memory cannot be reserved.
 #[derive(Debug)]

@@ -58,6 +58,10 @@ pub fn serve(options: &ServeOptions, listening: impl FnOnce(SocketAddr)) -> Resu
     let mut access = access.clone();
     access.hosts.push(listen.ip().to_string());
     let failed = |source: io::Error| ServeError::Socket { address: *listen, source };
+    let mut limits = limits.clone();
+    if access.trust_forwarded_for {
+        limits.max_client_connections = limits.max_connections;
+    }
     let app = App::new(limits.clone(), data.as_deref(), keys.as_deref())?.with_access(access);
     let runtime = tokio::runtime::Runtime::new().map_err(failed)?;
     let served = runtime.block_on(async {
@@ -68,7 +72,7 @@ pub fn serve(options: &ServeOptions, listening: impl FnOnce(SocketAddr)) -> Resu
             let _ = stop_signal().await;
             app.leave();
         };
-        http::serve(listener, http::router(app.clone()), limits, stop).await.map_err(failed)
+        http::serve(listener, http::router(app.clone()), &limits, stop).await.map_err(failed)
     });
     app.stop();
     served

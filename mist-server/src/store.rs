@@ -14,6 +14,7 @@ use redb::{
     Database, DatabaseError, ReadableDatabase, ReadableTable, StorageError, TableDefinition,
     WriteTransaction, backends::InMemoryBackend,
 };
+use sha2::{Digest, Sha256};
 
 /// Name of the file in the folder of the service.
 const FILE: &str = "mist.redb";
@@ -28,6 +29,8 @@ const JOBS: TableDefinition<'_, &str, &str> = TableDefinition::new("jobs");
 const PROGRAMS: TableDefinition<'_, &str, &str> = TableDefinition::new("programs");
 /// Finished steps by job and number.
 const STEPS: TableDefinition<'_, (&str, u64), &[u8]> = TableDefinition::new("steps");
+/// SHA-256 of the texts of finished jobs by job and kind.
+const DIGESTS: TableDefinition<'_, (&str, &str), &[u8]> = TableDefinition::new("digests");
 /// Texts of finished jobs by job and kind.
 const TEXTS: TableDefinition<'_, (&str, &str), &str> = TableDefinition::new("texts");
 
@@ -53,6 +56,15 @@ pub(crate) enum StoreError {
     /// It cannot be read or written.
     #[error("the store cannot be read or written: {0}")]
     Database(Box<redb::Error>),
+    /// A part of it is not what was stored.
+    #[error(
+        "{0} was damaged in the store: run the job again; check the disk, or restore the file of \
+         the store from a copy"
+    )]
+    Damaged(String),
+    /// The library of the store broke down.
+    #[error("its file is damaged or was truncated")]
+    Broken,
     /// Another service has its file open.
     #[error(
         "the store {path} is open in another service: stop that one, or give another --data",
@@ -61,15 +73,15 @@ pub(crate) enum StoreError {
     InUse(PathBuf),
     /// Its file cannot be opened.
     #[error(
-        "the store {path} cannot be opened: {source}; if it is no store of this version, move it \
-         away, and the service starts with an empty one",
+        "the store {path} cannot be opened: {reason}; restore it from a copy, or move it away, and \
+         the service starts with an empty one",
         path = .path.display()
     )]
     Unusable {
         /// The file.
         path: PathBuf,
         /// The reason.
-        source: Box<redb::Error>,
+        reason: String,
     },
 }
 
@@ -89,7 +101,7 @@ impl StoreError {
     /// True if the database must be opened again before it can be used.
     fn is_final(&self) -> bool {
         use redb::Error::{DatabaseClosed, Io, LockPoisoned, PreviousIo};
-        let Self::Database(error) = self else { return false };
+        let Self::Database(error) = self else { return matches!(self, Self::Broken) };
         matches!(**error, Io(_) | PreviousIo | DatabaseClosed | LockPoisoned(_))
     }
 
@@ -99,7 +111,10 @@ impl StoreError {
             Self::Database(error) if matches!(*error, redb::Error::DatabaseAlreadyOpen) => {
                 Self::InUse(path.to_owned())
             }
-            Self::Database(source) => Self::Unusable { path: path.to_owned(), source },
+            Self::Database(source) => {
+                Self::Unusable { path: path.to_owned(), reason: source.to_string() }
+            }
+            Self::Broken => Self::Unusable { path: path.to_owned(), reason: self.to_string() },
             other => other,
         }
     }
@@ -135,6 +150,7 @@ impl Store {
             change.open_table(PROGRAMS)?;
             change.open_table(STEPS)?;
             change.open_table(TEXTS)?;
+            change.open_table(DIGESTS)?;
             Ok(())
         })?;
         Ok(store)
@@ -215,7 +231,10 @@ impl Store {
         self.write(|change| {
             change.open_table(JOBS)?.insert(id, record)?;
             let mut table = change.open_table(TEXTS)?;
+            let mut digests = change.open_table(DIGESTS)?;
             for (kind, text) in texts {
+                let digest = Sha256::digest(text);
+                digests.insert((id, kind.as_str()), digest.as_slice())?;
                 table.insert((id, kind.as_str()), text.as_str())?;
             }
             remove_steps(change, id)
@@ -232,7 +251,9 @@ impl Store {
                 .range((id, "")..=(id, "\u{10ffff}"))?
                 .map(|entry| entry.map(|(key, _)| key.value().1.to_owned()))
                 .collect();
+            let mut digests = change.open_table(DIGESTS)?;
             for kind in kinds? {
+                digests.remove((id, kind.as_str()))?;
                 texts.remove((id, kind.as_str()))?;
             }
             remove_steps(change, id)
@@ -240,10 +261,25 @@ impl Store {
     }
 
     /// A text of a finished job.
+    ///
+    /// # Errors
+    ///
+    /// If the store cannot be read, or the text is not the one that was stored.
     pub(crate) fn text(&self, id: &str, kind: &str) -> Result<Option<String>, StoreError> {
         self.with(|database| {
-            let texts = database.begin_read()?.open_table(TEXTS)?;
-            Ok(texts.get((id, kind))?.map(|text| text.value().to_owned()))
+            let read = database.begin_read()?;
+            let text = read.open_table(TEXTS)?.get((id, kind))?.map(|text| text.value().to_owned());
+            // A text of version 0.1 has no digest.
+            let digest = read.open_table(DIGESTS)?.get((id, kind))?;
+            let is_whole = match (&text, digest) {
+                (Some(text), Some(digest)) => Sha256::digest(text).as_slice() == digest.value(),
+                _ => true,
+            };
+            if is_whole {
+                Ok(text)
+            } else {
+                Err(StoreError::Damaged(format!("{kind} of the job {id}")))
+            }
         })
     }
 
@@ -304,13 +340,22 @@ impl Store {
             None => {
                 let mut own = self.database.write().unwrap_or_else(PoisonError::into_inner);
                 if own.is_none() {
-                    *own = Some((self.open)()?);
+                    *own = Some(unbroken(|| Ok((self.open)()?))?);
                 }
-                own.as_ref().map_or_else(|| Err(StorageError::DatabaseClosed.into()), &work)
+                let closed = || Err(StorageError::DatabaseClosed.into());
+                own.as_ref().map_or_else(closed, |database| unbroken(|| work(database)))
             }
         };
+        if let Err(error) = &done {
+            tracing::warn!(%error, "the store failed");
+        }
         if done.as_ref().is_err_and(StoreError::is_final) {
-            *self.database.write().unwrap_or_else(PoisonError::into_inner) = None;
+            let broken = self.database.write().unwrap_or_else(PoisonError::into_inner).take();
+            // Closing a damaged file may fail too.
+            let _ = unbroken(|| {
+                drop(broken);
+                Ok(())
+            });
         }
         done
     }
@@ -321,8 +366,14 @@ impl Store {
         work: impl FnOnce(&Database) -> Result<T, StoreError>,
     ) -> Option<Result<T, StoreError>> {
         let shared = self.database.read().unwrap_or_else(PoisonError::into_inner);
-        shared.as_ref().map(work)
+        shared.as_ref().map(|database| unbroken(|| work(database)))
     }
+}
+
+/// Calls the library of the store, which panics on some damaged files.
+fn unbroken<T>(work: impl FnOnce() -> Result<T, StoreError>) -> Result<T, StoreError> {
+    let done = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work));
+    done.unwrap_or(Err(StoreError::Broken))
 }
 
 /// Makes the folder and the file if they are not there, for nobody but their owner.

@@ -162,7 +162,7 @@ fn a_service_whose_disk_is_full_says_so_and_lives() {
     let large = json!({"program": LONG, "files": {"a.txt": "x".repeat(12 << 20)}}).to_string();
     for (method, path) in [("PUT", "/v1/materials/large"), ("POST", "/v1/jobs")] {
         let (status, text) = service.ask(method, path, &large);
-        assert_eq!(status, 503, "{text}");
+        assert_eq!(status, 507, "{text}");
         assert!(text.contains("\"unavailable\""), "{text}");
     }
     // What was there is there, and small things fit.

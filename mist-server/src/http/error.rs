@@ -50,8 +50,10 @@ pub(crate) enum ApiError {
     TooMany(LimitReached),
     /// The service has too much to do.
     Busy(LimitReached),
-    /// The service is stopping, or what it keeps cannot be written.
+    /// The service is stopping.
     Unavailable(String),
+    /// What is kept cannot be read or written.
+    Store(String),
     /// A problem that is ready to be sent.
     Problem(Box<Problem>),
     /// The work failed.
@@ -81,7 +83,10 @@ impl From<MaterialError> for ApiError {
 
 impl From<StoreError> for ApiError {
     fn from(error: StoreError) -> Self {
-        Self::Unavailable(error.to_string())
+        match error {
+            StoreError::Damaged(_) => Self::Failed(error.to_string()),
+            _ => Self::Store(error.to_string()),
+        }
     }
 }
 
@@ -180,6 +185,9 @@ impl ApiError {
             Self::Unavailable(message) => {
                 Problem::new(StatusCode::SERVICE_UNAVAILABLE, "unavailable", message)
             }
+            Self::Store(message) => {
+                Problem::new(StatusCode::INSUFFICIENT_STORAGE, "unavailable", message)
+            }
             Self::Problem(problem) => *problem,
             Self::Failed(message) => {
                 Problem::new(StatusCode::INTERNAL_SERVER_ERROR, "failed", message)
@@ -196,7 +204,9 @@ impl IntoResponse for ApiError {
         let mut response = (status, kind, Json(problem)).into_response();
         let headers = response.headers_mut();
         match status {
-            StatusCode::TOO_MANY_REQUESTS | StatusCode::SERVICE_UNAVAILABLE => {
+            StatusCode::TOO_MANY_REQUESTS
+            | StatusCode::SERVICE_UNAVAILABLE
+            | StatusCode::INSUFFICIENT_STORAGE => {
                 headers.insert(header::RETRY_AFTER, HeaderValue::from(RETRY_AFTER));
             }
             StatusCode::UNAUTHORIZED => {

@@ -59,6 +59,7 @@ pub(super) struct EvaluationOptions {
 #[utoipa::path(
     post,
     path = "/v1/evaluate",
+    operation_id = "evaluate_model",
     tag = "evaluate",
     params(EvaluationOptions),
     request_body = schema::EvalRequest,
@@ -86,6 +87,7 @@ pub(super) async fn angles(
 #[utoipa::path(
     post,
     path = "/v1/materials/{name}/evaluate",
+    operation_id = "evaluate_material",
     tag = "materials",
     params(schema::MaterialName, MaterialQuery),
     request_body(content = Vec<u8>, content_type = "application/octet-stream"),

@@ -1,10 +1,11 @@
 //! Parts of requests for handlers; a part that cannot be read is a problem like any other.
 
 use axum::{
-    body::Bytes,
+    body::{Body, Bytes, HttpBody},
     extract::{FromRequest, FromRequestParts, Request},
-    http::{HeaderMap, StatusCode, Uri, header, request::Parts},
+    http::{HeaderMap, Uri, header, request::Parts},
 };
+use futures_util::StreamExt;
 use mist_runner::files::decode;
 use serde::de::DeserializeOwned;
 
@@ -13,7 +14,7 @@ use super::{
     media::{JSON, MIST, VECTORS},
     state::App,
 };
-use crate::limits::LimitReached;
+use crate::{limits::LimitReached, memory::HeldMemory};
 
 /// The named parts of the address.
 pub(super) struct PathParameters<T>(pub(super) T);
@@ -108,21 +109,45 @@ impl FromRequest<App> for BodyBytes {
     type Rejection = ApiError;
 
     async fn from_request(request: Request, app: &App) -> Result<Self, ApiError> {
-        let most = app.limits.max_body;
-        let read = Bytes::from_request(request, app);
+        let held = request.extensions().get::<HeldMemory>().cloned().unwrap_or_default();
+        let read = read_body(request.into_body(), app, &held);
         let read = tokio::time::timeout(app.limits.silence(), read).await;
-        match read.map_err(|_| ApiError::Slow)? {
-            Ok(bytes) => Ok(Self(bytes)),
-            Err(error) if error.status() == StatusCode::PAYLOAD_TOO_LARGE => {
-                Err(ApiError::TooLarge(LimitReached {
-                    flag: "max-body",
-                    value: most as f64,
-                    message: format!("the body has more than {most} bytes"),
-                }))
-            }
-            Err(error) => Err(ApiError::Body(error.body_text())),
+        Ok(Self(read.map_err(|_| ApiError::Slow)??))
+    }
+}
+
+/// Bytes of a body for which memory is reserved at a time.
+const PART: usize = 64 << 10;
+/// Bytes that a byte of a body needs: as it came, as text, and as what is read from it.
+const PER_BYTE: f64 = 3.0;
+
+/// Reads a body, and reserves memory as it arrives: a body that is announced holds none.
+async fn read_body(body: Body, app: &App, held: &HeldMemory) -> Result<Bytes, ApiError> {
+    let most = app.limits.max_body;
+    let too_long = || {
+        ApiError::TooLarge(LimitReached {
+            flag: "max-body",
+            value: most as f64,
+            message: format!("the body has more than {most} bytes"),
+        })
+    };
+    if body.size_hint().lower() > most as u64 {
+        return Err(too_long());
+    }
+    let (mut bytes, mut reserved) = (Vec::new(), 0);
+    let mut parts = body.into_data_stream();
+    while let Some(part) = parts.next().await {
+        let part = part.map_err(|error| ApiError::Body(error.to_string()))?;
+        if bytes.len() + part.len() > most {
+            return Err(too_long());
+        }
+        bytes.extend_from_slice(&part);
+        while reserved < bytes.len() {
+            held.add(app.memory.reserve(PART as f64 * PER_BYTE)?);
+            reserved += PART;
         }
     }
+    Ok(bytes.into())
 }
 
 /// The kinds of answer that the header `Accept` prefers.

@@ -14,6 +14,7 @@ use sha2::{Digest, Sha256};
 use super::{
     client::Client,
     error::ApiError,
+    preconditions,
     problem::Problem,
     state::{App, FileProducer},
 };
@@ -50,7 +51,7 @@ impl<'a> FileRequest<'a> {
 
     /// The answer 304 to a client that has the file already.
     pub(super) fn not_modified(&self) -> Option<Response> {
-        is_known(self.headers, &self.tag)
+        preconditions::is_known(self.headers, &self.tag)
             .then(|| (StatusCode::NOT_MODIFIED, [(header::ETAG, &self.tag)]).into_response())
     }
 
@@ -139,13 +140,4 @@ fn tag_of(content: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let digest = Sha256::digest(format!("{version} {content}"));
     format!("\"sha256-{digest:x}\"")
-}
-
-/// True if the client has the file with this tag: `If-None-Match` is `*` or a list of tags.
-fn is_known(headers: &HeaderMap, tag: &str) -> bool {
-    let given = headers.get_all(header::IF_NONE_MATCH).iter().filter_map(|v| v.to_str().ok());
-    given
-        .flat_map(|list| list.split(','))
-        .map(|one| one.trim())
-        .any(|one| one == "*" || one.strip_prefix("W/").unwrap_or(one) == tag)
 }

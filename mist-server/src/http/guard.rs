@@ -7,23 +7,18 @@ use std::{
 
 use axum::{
     extract::{MatchedPath, Request, State},
-    http::{HeaderMap, HeaderName, HeaderValue, header},
+    http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header},
     middleware::Next,
     response::{IntoResponse, Response},
 };
 
 use super::{admission, error::ApiError, page, state::App};
-use crate::memory::Reservation;
+use crate::memory::HeldMemory;
 
 /// The header with the number of a request.
 const REQUEST_ID: &str = "x-request-id";
 /// Characters of a number that a client or a proxy gives.
 const LONGEST_ID: usize = 128;
-
-/// Bodies up to so many bytes are not worth counting.
-const SMALL_BODY: usize = 64 << 10;
-/// Bytes that a byte of a body needs: as it came, as text, and as what is read from it.
-const PER_BYTE: f64 = 3.0;
 
 /// Headers of every answer that has none of its own: browsers take it for what it is called, run
 /// nothing in it, and let no other site embed it.
@@ -49,13 +44,17 @@ pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Ne
     let address = admission::address(&app, &request);
     let admitted = app.origins.check(&request).and_then(|()| {
         let client = admission::admit(&app, &request, &address)?;
-        Ok((client, reserve_body(&app, &request)?))
+        Ok(client)
     });
     let (mut response, client) = match admitted {
-        Ok((client, _held)) => {
+        Ok(client) => {
             let name = client.name.clone();
+            let held = HeldMemory::default();
             request.extensions_mut().insert(client);
-            (next.run(request).await, name)
+            request.extensions_mut().insert(held.clone());
+            let response = next.run(request).await;
+            drop(held);
+            (response, name)
         }
         Err(error) => {
             if matches!(error, ApiError::Key) {
@@ -65,6 +64,12 @@ pub(super) async fn guard(State(app): State<App>, mut request: Request, next: Ne
             (error.into_response(), address)
         }
     };
+    if method == Method::OPTIONS && response.status() == StatusCode::METHOD_NOT_ALLOWED {
+        // The header `Allow` is there already.
+        let allow = response.headers().get(header::ALLOW).cloned();
+        response = StatusCode::NO_CONTENT.into_response();
+        response.headers_mut().extend(allow.map(|allow| (header::ALLOW, allow)));
+    }
     let (status, seconds) = (response.status().as_u16(), begun.elapsed().as_secs_f64());
     tracing::info!(id, %method, path = uri.path(), status, seconds, client, "answered");
     let route = route.as_ref().map_or("none", MatchedPath::as_str);
@@ -85,21 +90,6 @@ fn close(headers: &mut HeaderMap, path: &str) {
     for (name, value) in CLOSED {
         headers.entry(name).or_insert(value);
     }
-}
-
-/// Memory for the body of a request, until it is answered.
-fn reserve_body(app: &App, request: &Request) -> Result<Option<Reservation>, ApiError> {
-    let most = app.limits.max_body;
-    let bytes = match request.headers().get(header::CONTENT_LENGTH) {
-        Some(length) => length.to_str().ok().and_then(|length| length.parse().ok()).unwrap_or(most),
-        None if request.headers().contains_key(header::TRANSFER_ENCODING) => most,
-        None => 0,
-    };
-    // A body that is too long is not read.
-    if bytes <= SMALL_BODY || bytes > most {
-        return Ok(None);
-    }
-    Ok(Some(app.memory.reserve(bytes as f64 * PER_BYTE)?))
 }
 
 /// The number that the client or a proxy gave, or the next one.

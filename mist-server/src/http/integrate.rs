@@ -81,6 +81,7 @@ fn rows(body: &MistText) -> Result<PatchList, ApiError> {
 #[utoipa::path(
     post,
     path = "/v1/materials/{name}/integrate",
+    operation_id = "integrate_material",
     tag = "materials",
     params(schema::MaterialName, MaterialQuery),
     request_body(content((String = "application/x-mist"), (Patches = "application/json"))),

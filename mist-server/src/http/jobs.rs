@@ -69,6 +69,7 @@ pub(super) struct TableOptions {
 #[utoipa::path(
     post,
     path = "/v1/jobs",
+    operation_id = "submit_job",
     tag = "jobs",
     request_body(content(
         (ProgramRequest = "application/json"), (String = "application/x-mist"),
@@ -108,6 +109,7 @@ pub(super) async fn submit(
 #[utoipa::path(
     get,
     path = "/v1/jobs",
+    operation_id = "list_jobs",
     tag = "jobs",
     responses((status = 200, description = "Where they stand", body = Vec<JobDocument>), Problems),
 )]
@@ -119,6 +121,7 @@ pub(super) async fn list(State(app): State<App>) -> Json<Vec<JobDocument>> {
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}",
+    operation_id = "get_job",
     tag = "jobs",
     params(JobId),
     responses((status = 200, description = "Where it stands", body = JobDocument), Problems),
@@ -134,6 +137,7 @@ pub(super) async fn get(
 #[utoipa::path(
     delete,
     path = "/v1/jobs/{id}",
+    operation_id = "delete_job",
     tag = "jobs",
     params(JobId),
     responses(
@@ -159,6 +163,7 @@ pub(super) async fn cancel(
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/events",
+    operation_id = "job_events",
     tag = "jobs",
     params(JobId),
     responses(
@@ -190,6 +195,7 @@ pub(super) async fn events(
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/results",
+    operation_id = "job_results",
     tag = "jobs",
     params(JobId, ResultsOptions),
     responses(
@@ -220,6 +226,7 @@ pub(super) async fn results(
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/listing",
+    operation_id = "job_listing",
     tag = "jobs",
     params(JobId),
     responses((status = 200, description = "The listing", body = String), Problems),
@@ -235,6 +242,7 @@ pub(super) async fn listing(
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/samples",
+    operation_id = "job_samples",
     tag = "jobs",
     params(JobId),
     responses((status = 200, description = "The samples", body = String), Problems),
@@ -250,6 +258,7 @@ pub(super) async fn samples(
 #[utoipa::path(
     get,
     path = "/v1/jobs/{id}/table",
+    operation_id = "job_table",
     tag = "jobs",
     params(JobId, TableOptions),
     responses(

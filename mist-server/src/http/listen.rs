@@ -1,6 +1,14 @@
 //! Connections: their number, the time for which they may be silent, and their end.
 
-use std::{future::Future, io, net::IpAddr, pin::pin, sync::Arc, time::Duration};
+use std::{
+    collections::BTreeMap,
+    future::Future,
+    io,
+    net::IpAddr,
+    pin::pin,
+    sync::{Arc, Mutex, PoisonError},
+    time::Duration,
+};
 
 use axum::{Router, extract::ConnectInfo, http::Request};
 use hyper::{body::Incoming, server::conn::http1, service::service_fn};
@@ -23,6 +31,37 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PeerAddress(pub(super) IpAddr);
 
+/// Numbers of open connections by address.
+type AddressCounts = Arc<Mutex<BTreeMap<IpAddr, usize>>>;
+
+/// An open connection of an address.
+struct AddressPlace(AddressCounts, IpAddr);
+
+impl AddressPlace {
+    /// Counts a connection; none if the address has too many.
+    fn take(counts: &AddressCounts, address: IpAddr, limits: &ServeLimits) -> Option<Self> {
+        let mut all = counts.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = all.entry(address).or_insert(0);
+        if *count >= limits.max_client_connections.max(1) {
+            return None;
+        }
+        *count += 1;
+        Some(Self(counts.clone(), address))
+    }
+}
+
+impl Drop for AddressPlace {
+    fn drop(&mut self) {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(count) = all.get_mut(&self.1) {
+            *count -= 1;
+            if *count == 0 {
+                all.remove(&self.1);
+            }
+        }
+    }
+}
+
 /// Answers on `listener` until `stop` is there; then no more connections are accepted, and what
 /// was begun is answered.
 ///
@@ -36,6 +75,7 @@ pub async fn serve(
     stop: impl Future<Output = ()>,
 ) -> io::Result<()> {
     let places = Arc::new(Semaphore::new(limits.max_connections.max(1)));
+    let addresses = Arc::new(Mutex::new(BTreeMap::new()));
     let connections = GracefulShutdown::new();
     let mut http = http1::Builder::new();
     http.timer(TokioTimer::new()).header_read_timeout(limits.silence());
@@ -58,6 +98,10 @@ pub async fn serve(
                 continue;
             }
         };
+        let Some(own_place) = AddressPlace::take(&addresses, address.ip(), limits) else {
+            tracing::warn!(%address, "this address has too many connections (--max-client-connections)");
+            continue;
+        };
         // Answers are whole when they are written: nothing is gained by waiting for more.
         let _ = stream.set_nodelay(true);
         let (router, peer) = (router.clone(), ConnectInfo(PeerAddress(address.ip())));
@@ -71,7 +115,7 @@ pub async fn serve(
         let connection = http.serve_connection(TokioIo::new(Box::pin(stream)), service);
         let connection = connections.watch(connection);
         tokio::spawn(async move {
-            let _place = place;
+            let _places = (place, own_place);
             if let Err(error) = connection.await {
                 tracing::debug!(%error, "a connection broke");
             }

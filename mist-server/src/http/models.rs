@@ -14,6 +14,7 @@ use super::{error::ApiError, extract::PathParameters, problem::Problems};
 #[utoipa::path(
     get,
     path = "/v1/models",
+    operation_id = "list_models",
     tag = "models",
     responses((status = 200, description = "Families with their classes", body = Value), Problems),
 )]
@@ -25,6 +26,7 @@ pub(super) async fn list() -> Json<Value> {
 #[utoipa::path(
     get,
     path = "/v1/models/{name}",
+    operation_id = "get_model",
     tag = "models",
     params(("name" = String, Path, description = "Name of the class", example = "Facet_BRDF_Model")),
     responses((

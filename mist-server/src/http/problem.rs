@@ -18,13 +18,19 @@ use crate::failure::{FailureReport, LocatedDiagnostic};
 /// The reason why a request was not answered.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub(crate) struct Problem {
+    /// Kind of problem as a URI (RFC 9457); `code` says it more exactly.
+    #[serde(rename = "type")]
+    #[schema(example = "about:blank")]
+    kind: &'static str,
     /// The meaning of the status.
     pub(super) title: String,
     /// The status of the answer.
     pub(super) status: u16,
     /// Kind of problem; stable.
     pub(super) code: String,
-    /// The message for people.
+    /// The message for people (RFC 9457).
+    detail: String,
+    /// The same message.
     pub(super) message: String,
     /// The parameter or the part of the request at fault.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,7 +63,20 @@ impl Problem {
         let FailureReport { code, message, part, line, column, help, limit, diagnostics } = report;
         let title = status.canonical_reason().unwrap_or("Error").to_owned();
         let status = status.as_u16();
-        Self { title, status, code, message, part, line, column, help, limit, diagnostics }
+        Self {
+            kind: "about:blank",
+            title,
+            status,
+            code,
+            detail: message.clone(),
+            message,
+            part,
+            line,
+            column,
+            help,
+            limit,
+            diagnostics,
+        }
     }
 }
 
@@ -74,11 +93,14 @@ impl IntoResponses for Problems {
             ("405", "This address has no such method"),
             ("408", "The body did not come in time"),
             ("409", "It is not in a state for this"),
+            ("412", "The content is not the one that If-Match names"),
             ("413", "The body is larger than the service allows"),
             ("415", "The body is of a kind that is not read here"),
             ("422", "The request is understood, but wrong: a value, a program, or a limit"),
             ("429", "The client has too many jobs; Retry-After says when to ask again"),
+            ("500", "The service has failed; its log has more"),
             ("503", "The service has too much to do, or is stopping; see Retry-After"),
+            ("507", "The store cannot be written"),
         ];
         each.map(|(status, meaning)| {
             let schema = Some(Ref::from_schema_name("Problem"));

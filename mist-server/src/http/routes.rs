@@ -1,6 +1,13 @@
 //! Every route of the service, and its description in OpenAPI.
 
-use axum::{Router, extract::DefaultBodyLimit, middleware, routing::get};
+use axum::{
+    Router,
+    extract::DefaultBodyLimit,
+    http::{HeaderValue, header},
+    middleware::{self, map_response},
+    response::Response,
+    routing::get,
+};
 use tower::util::option_layer;
 use tower_http::compression::CompressionLayer;
 use utoipa::OpenApi;
@@ -63,6 +70,19 @@ fn routes() -> OpenApiRouter<App> {
         .routes(routes!(jobs::table))
 }
 
+/// Makes the tag of a compressed answer a weak one: its bytes are not those of the plain answer.
+async fn weaken_tag(mut response: Response) -> Response {
+    let headers = response.headers_mut();
+    if headers.contains_key(header::CONTENT_ENCODING)
+        && let Some(tag) = headers.get(header::ETAG).and_then(|tag| tag.to_str().ok())
+        && !tag.starts_with("W/")
+        && let Ok(tag) = HeaderValue::from_str(&format!("W/{tag}"))
+    {
+        headers.insert(header::ETAG, tag);
+    }
+    response
+}
+
 /// The OpenAPI document, as it is served.
 pub fn openapi() -> String {
     let (_, api) = routes().split_for_parts();
@@ -87,6 +107,7 @@ pub fn router(app: App) -> Router {
         .layer(DefaultBodyLimit::max(app.limits.max_body))
         .layer(middleware::from_fn_with_state(app.clone(), guard::guard))
         .layer(CompressionLayer::new())
+        .layer(map_response(weaken_tag))
         .layer(option_layer(app.origins.cors()))
         .with_state(app)
 }

@@ -54,6 +54,7 @@ pub(super) struct TablePath {
 #[utoipa::path(
     get,
     path = "/v1/materials/{name}/{file}",
+    operation_id = "material_table",
     tag = "materials",
     params(TablePath, MaterialQuery),
     responses(

@@ -88,3 +88,49 @@ fn a_folder_keeps_what_was_put_into_it() {
     assert_eq!(store.text("a", "results").unwrap(), None);
     assert!(store.jobs().unwrap().is_empty());
 }
+
+#[test]
+fn a_truncated_or_overwritten_file_is_told_with_its_name_and_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join(FILE);
+    let store = Store::new(Some(folder.path())).unwrap();
+    for number in 0..200 {
+        store.put_material(&format!("m{number}"), &"x".repeat(5000), "owner").unwrap();
+    }
+    drop(store);
+    let whole = std::fs::read(&file).unwrap();
+    for kept in [100, 4096, whole.len() / 2, whole.len() - 4096] {
+        std::fs::write(&file, &whole[..kept]).unwrap();
+        let Err(error) = Store::new(Some(folder.path())) else { continue };
+        let text = error.to_string();
+        assert!(text.contains(FILE) && text.contains("restore it"), "{kept}: {text}");
+    }
+    for start in (0..whole.len()).step_by(whole.len() / 40) {
+        let mut damaged = whole.clone();
+        let end = (start + 600).min(damaged.len());
+        damaged[start..end].fill(0xa5);
+        std::fs::write(&file, &damaged).unwrap();
+        // An error or the materials, and no panic.
+        if let Ok(store) = Store::new(Some(folder.path())) {
+            let _ = store.materials();
+        }
+    }
+}
+
+#[test]
+fn a_text_that_was_changed_in_the_store_is_not_served() {
+    let store = Store::new(None).unwrap();
+    store.finish_job("a", "{}", &[("results".into(), "1 0.5\n".into())]).unwrap();
+    assert_eq!(store.text("a", "results").unwrap().as_deref(), Some("1 0.5\n"));
+    store
+        .write(|change| {
+            change.open_table(TEXTS)?.insert(("a", "results"), "1 0.6\n")?;
+            Ok(())
+        })
+        .unwrap();
+    let error = store.text("a", "results").unwrap_err().to_string();
+    assert!(
+        error.contains("results of the job a") && error.contains("run the job again"),
+        "{error}"
+    );
+}

@@ -2,6 +2,7 @@
 
 mod access;
 mod ask;
+mod conditions;
 mod evaluate;
 mod hostile;
 mod integrate;
