@@ -4,7 +4,8 @@
 //     mist::Value value = table.lookup(thetai, thetas, phis);   // degrees
 //     std::array<double, 3> rgb = value.filtered(30);           // behind a polarizer, 30° from s
 //
-// C++17, no dependencies. A file that is cut off is refused: std::runtime_error. The format is
+// C++17, no dependencies. A file that is cut off, a direction outside of the grid and a filter for a table
+// without Stokes components are refused: std::runtime_error. The format is
 // described in docs/formats/mtab.md; values are linear, for the colour space named in the header.
 #pragma once
 
@@ -22,13 +23,16 @@
 
 namespace mist {
 
-// What a direction has: R, G, B and their Stokes components (0 if the table has none).
+// What a direction has: R, G, B and their Stokes components, if the table has them.
 struct Value {
     std::array<double, 3> rgb{}, q{}, u{}, v{};
     double intensity = 0;
+    // True if the table has Q and U of each channel.
+    bool polarized = false;
 
     // Linear RGB behind a linear polarizer at `degrees` from s.
     std::array<double, 3> filtered(double degrees) const {
+        if (!polarized) throw std::runtime_error("the table has no Stokes components: ask for it with stokes=1");
         const double angle = degrees * std::acos(-1.0) / 90, c = std::cos(angle), s = std::sin(angle);
         std::array<double, 3> out{};
         for (int i = 0; i < 3; i++) out[i] = 0.5 * (rgb[i] + c * q[i] + s * u[i]);
@@ -67,12 +71,18 @@ public:
         return table;
     }
 
-    // The value in a direction (degrees), linear between nodes; the ends of the axes are held.
+    // The value in a direction (degrees), linear between nodes; azimuths are taken modulo 360.
     Value lookup(double thetai, double thetas, double phis) const {
         if (axes_.size() != 3) throw std::runtime_error("this table is a list, not a grid");
         phis = std::remainder(phis, 360.0);
         const bool mirrored = mirror_ && phis < 0;
-        const double angles[3] = {thetai, thetas, mirrored ? -phis : phis};
+        if (mirrored) phis = -phis;
+        if (phis < axes_[2].front() - EDGE) phis += 360;
+        if (phis > axes_[2].back() + EDGE) phis -= 360;
+        const double angles[3] = {thetai, thetas, phis};
+        for (int a = 0; a < 3; a++)
+            if (!(angles[a] >= axes_[a].front() - EDGE && angles[a] <= axes_[a].back() + EDGE))
+                throw std::runtime_error("the direction is outside of the grid of the table");
         std::size_t low[3], next[3];
         double part[3];
         for (int a = 0; a < 3; a++) cell(axes_[a], angles[a], low[a], next[a], part[a]);
@@ -106,6 +116,8 @@ private:
     std::vector<std::vector<double>> axes_;
     std::vector<double> numbers_;
     bool mirror_ = false;
+    // Degrees by which a direction may miss the end of an axis, for rounding.
+    static constexpr double EDGE = 1e-9;
 
     void header_line(const std::string& key, std::istringstream& words) {
         std::string word;
@@ -152,6 +164,7 @@ private:
     Value value(const double* row, bool mirrored) const {
         Value out;
         const std::string channels = "RGB";
+        int polarized = 0;
         for (std::size_t c = 0; c < columns_.size(); c++) {
             const std::string& name = columns_[c];
             if (name == "I") out.intensity = row[c];
@@ -160,10 +173,12 @@ private:
             // U and V change their signs in the mirror at the plane of incidence.
             const char stokes = name.size() == 2 ? name[1] : 'I';
             if (stokes == 'I') out.rgb[channel] = row[c];
+            polarized += stokes == 'Q' || stokes == 'U';
             if (stokes == 'Q') out.q[channel] = row[c];
             if (stokes == 'U') out.u[channel] = mirrored ? -row[c] : row[c];
             if (stokes == 'V') out.v[channel] = mirrored ? -row[c] : row[c];
         }
+        out.polarized = polarized == 6;
         return out;
     }
 };

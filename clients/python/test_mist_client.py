@@ -3,6 +3,9 @@
     python3 clients/python/test_mist_client.py http://127.0.0.1:8650
 """
 
+import contextlib
+import io
+import math
 import os
 import sys
 import tempfile
@@ -70,6 +73,46 @@ class Client(unittest.TestCase):
     def test_a_program_runs_with_its_data_files(self):
         text = self.service.run(PROGRAM, {"r.txt": "0.3 0.5\n0.9 0.5\n"})
         self.assertEqual(len(text.strip().splitlines()), 4)
+
+    def test_a_job_runs_in_the_background(self):
+        job = self.service.submit(PROGRAM, {"r.txt": "0.3 0.5\n0.9 0.5\n"}, name="client")
+        self.assertEqual(job.wait(300)["state"], "done")
+        self.assertEqual(len(job.results().strip().splitlines()), 4)
+        self.assertIn("Lambertian", job.listing())
+        self.assertIn(job.id, [each["id"] for each in self.service.jobs()])
+        job.delete()
+        with self.assertRaises(mist_client.Refused):
+            job.status()
+
+    def test_spectra_and_exports_come_back(self):
+        grid = {"thetai": "0:30:60", "thetas": "0:30:60", "phis": "0", "lambda_": "400:100:700"}
+        spectra = self.service.spectra("client-glass", **grid)
+        self.assertEqual((len(spectra.rows), spectra.columns[-4:]), (9, ["400", "500", "600", "700"]))
+        self.assertTrue(self.service.export("client-glass", "table.bsdf", grid="8x16").startswith(b"tensor_file"))
+
+    def test_a_promised_table_is_waited_for(self):
+        grid = dict(GRID, thetai="0:5:75", thetas="0:2:76", wait=0)
+        self.assertEqual(len(self.service.table("client-glass", **grid).axes["thetas"]), 39)
+
+    def test_directions_outside_and_filters_without_stokes_components_are_refused(self):
+        for place in [(80, 30, 0), (45, -1, 0), (45, math.nan, 0)]:
+            with self.assertRaises(ValueError):
+                self.table.lookup(*place)
+        plain = self.service.table("client-glass", **dict(GRID, stokes=0))
+        with self.assertRaises(ValueError):
+            plain.lookup(45, 40, 0, filter=30)
+
+    def test_the_example_of_the_module_runs_as_it_is_printed(self):
+        lines = mist_client.__doc__.splitlines()
+        example = "\n".join(line[4:] for line in lines if line.startswith("    "))
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "white.mist")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write(PROGRAM.replace("  $reflectance.table = r.txt\n", ""))
+            example = example.replace("http://127.0.0.1:8650", URL).replace("white.mist", program)
+            with contextlib.redirect_stdout(io.StringIO()) as printed:
+                exec(example, {})
+        self.assertEqual(len(printed.getvalue().strip().splitlines()), 4)
 
     def test_a_refusal_says_why(self):
         with self.assertRaises(mist_client.Refused) as caught:

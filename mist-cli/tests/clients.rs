@@ -82,7 +82,7 @@ fn numbers(output: &Output) -> Vec<f64> {
 }
 
 #[test]
-fn the_header_for_cpp_reads_tables_as_they_are_and_refuses_cut_ones() {
+fn the_header_for_cpp_reads_tables_as_they_are_and_refuses_others() {
     let dir = tempfile::tempdir().unwrap();
     let program = dir.path().join("example");
     let mut compiler = Command::new("c++");
@@ -127,4 +127,6 @@ fn the_header_for_cpp_reads_tables_as_they_are_and_refuses_cut_ones() {
     fs::write(&cut, lines[..lines.len() - 2].join("\n")).unwrap();
     let refused = Command::new(&program).arg(&cut).args(["45", "30", "0", "0"]).output().unwrap();
     assert_eq!(refused.status.code(), Some(1));
+    let outside = Command::new(&program).arg(&table).args(["80", "30", "0", "0"]).output().unwrap();
+    assert_eq!(outside.status.code(), Some(1));
 }
