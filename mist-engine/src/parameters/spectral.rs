@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use mist_format::number::general;
 use scattering::{Parameter, ParameterKind};
 
 use super::{
@@ -160,7 +161,8 @@ static UNITS: [TableUnit; 4] = [
 ];
 
 fn range(low: f64, high: f64) -> String {
-    if low == high { format!("{low}") } else { format!("{low} to {high}") }
+    let [low, high] = [low, high].map(|x| general(x, 7));
+    if low == high { low } else { format!("{low} to {high}") }
 }
 
 #[cfg(test)]
