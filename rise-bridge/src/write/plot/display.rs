@@ -58,7 +58,9 @@ impl DisplayColours {
 
     /// The exposure of row `at`: 1, or less for a colour that is brighter than white.
     pub(super) fn exposure(&self, table: &ColourTable, at: usize) -> f64 {
-        1.0 / self.linear(table, at).iter().copied().fold(1.0, f64::max)
+        let brightest = self.linear(table, at).iter().copied().fold(1.0, f64::max);
+        // White through two matrices is 1 but for rounding.
+        if brightest < 1.0 + 1e-9 { 1.0 } else { 1.0 / brightest }
     }
 
     /// A phrase about white, for the subtitle.
