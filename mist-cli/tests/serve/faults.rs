@@ -86,6 +86,31 @@ fn what_a_client_that_is_gone_had_asked_for_is_not_computed_on() {
     assert_eq!(service.ask("DELETE", &format!("/v1/jobs/{id}"), "").0 / 100, 2);
 }
 
+#[test]
+fn bodies_that_are_announced_and_do_not_come_hold_no_memory() {
+    let data = tempfile::tempdir().unwrap();
+    let service = Service::start(data.path(), &["--max-memory", "100000000"]);
+    let idle: Vec<TcpStream> = (0..100)
+        .map(|_| {
+            let mut stream = service.connect();
+            let head = b"PUT /v1/materials/a HTTP/1.1\r\nHost: localhost\r\n\
+                Content-Type: application/json\r\nContent-Length: 16000000\r\n\r\n{";
+            stream.write_all(head).unwrap();
+            stream
+        })
+        .collect();
+    put_glass(&service);
+    // An address has at most 128 connections; those beyond are closed.
+    let many: Vec<TcpStream> = (0..60).map(|_| service.connect()).collect();
+    let mut more = service.connect();
+    let _ = more.write_all(b"GET /healthz HTTP/1.0\r\nHost: localhost\r\n\r\n");
+    let mut answer = Vec::new();
+    // A reset is a close too.
+    let _ = more.read_to_end(&mut answer);
+    assert!(answer.is_empty(), "{}", String::from_utf8_lossy(&answer));
+    drop((idle, many));
+}
+
 /// Memory of the process in use, kB.
 #[cfg(target_os = "linux")]
 fn resident(service: &Service) -> u64 {
