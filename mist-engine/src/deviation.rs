@@ -47,6 +47,9 @@ engine_deviations! {
     /// Circles and the hemisphere are polygons of `polygonsides` edges, cut and shifted at the
     /// horizon.
     PolygonApertures => "exact outlines",
+    /// Integrals are sums over a grid of `differential` and `minsamples`, whatever lies between its
+    /// directions.
+    GridIntegrals => "adaptive with a stated error; `integrationmode` asks for a grid",
 }
 
 impl EngineDeviation {

@@ -7,6 +7,7 @@
 
 mod cache;
 mod models;
+mod remarks;
 mod task;
 mod task_list;
 
@@ -14,7 +15,7 @@ use std::{collections::BTreeSet, fmt::Write as _, sync::Arc};
 
 use mist_format::{Diagnostic, number::general};
 use rayon::prelude::*;
-use scattering::{Incidence, Mueller, Notice};
+use scattering::{Incidence, Mode, Mueller, Notice};
 
 use crate::{
     Control, Failure, Job,
@@ -27,8 +28,10 @@ use crate::{
 };
 use cache::{FastMap, WeightedCache};
 use models::Models;
+use remarks::AccuracyRemarks;
 use task::{
     IntegralKey, IntegralTask, MuellerResult, NumberedDirections, TaskDirections, TaskError,
+    TaskResult,
 };
 use task_list::TaskList;
 
@@ -48,6 +51,7 @@ pub(crate) struct Evaluator<'a> {
     next_layout: u64,
     integrals: WeightedCache<IntegralKey, MuellerResult>,
     met: BTreeSet<Notice>,
+    remarks: AccuracyRemarks,
     /// Empty between two blocks.
     todo: TaskList,
 }
@@ -62,6 +66,7 @@ impl<'a> Evaluator<'a> {
             next_layout: 0,
             integrals: WeightedCache::up_to(KEPT_INTEGRALS),
             met: BTreeSet::new(),
+            remarks: AccuracyRemarks::default(),
             todo: TaskList::default(),
         }
     }
@@ -194,13 +199,24 @@ impl<'a> Evaluator<'a> {
     fn do_all(&mut self, block: &[&Step], todo: &mut TaskList) -> Result<f64, Failure> {
         let stop = || self.control.is_cancelled();
         let basis = self.job.plan.basis;
-        let all = todo.work.par_iter().map(|piece| piece.compute(basis, &stop));
+        let is_sound = self.job.options.mode == Mode::Sound;
+        let integral = |(at, number): (usize, usize)| &block[at].integrals[number];
+        let remarks = &self.remarks;
+        let all = todo.work.par_iter().map(|piece| {
+            let is_checked = is_sound && !remarks.has(piece.wanted_by.1);
+            piece.compute(basis, is_checked.then(|| integral(piece.wanted_by)), &stop)
+        });
         all.collect_into_vec(&mut todo.done);
         let mut spent = 0.0;
         for (piece, result) in todo.work.iter().zip(todo.done.drain(..)) {
             let fault = match result {
-                Ok((found, evaluations)) => {
+                Ok(TaskResult { found, evaluations, remark }) => {
                     spent += evaluations as f64;
+                    if let Some(remark) = remark {
+                        let (at, number) = piece.wanted_by;
+                        let place = (number, block[at].index);
+                        self.remarks.note(place, remark, integral(piece.wanted_by));
+                    }
                     if piece.is_worth_keeping() {
                         self.integrals.insert(piece.key, found.clone(), 1);
                     }
@@ -250,6 +266,11 @@ impl<'a> Evaluator<'a> {
     /// The defects met since the last call.
     pub(crate) fn take_met(&mut self) -> BTreeSet<Notice> {
         std::mem::take(&mut self.met)
+    }
+
+    /// Warnings of integrals that are less accurate than they should be.
+    pub(crate) fn warnings(&self) -> Vec<Diagnostic> {
+        self.remarks.warnings(&self.job.plan.integrals)
     }
 
     /// The lines of the samples file for `step`.

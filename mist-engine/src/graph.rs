@@ -60,7 +60,7 @@ impl DependencyGraph {
             entries,
             expressions,
             dependents: vec![Vec::new(); plan.names.len()],
-            predefined: predefined(plan),
+            predefined: predefined(plan, mode),
             inside: inside(plan, mode),
             in_order,
             chained,
@@ -158,11 +158,12 @@ impl DependencyGraph {
 }
 
 /// The predefined variables, without those that an entry gives before anything reads them.
-fn predefined(plan: &Plan) -> Vec<(u32, f64)> {
+fn predefined(plan: &Plan, mode: Mode) -> Vec<(u32, f64)> {
     let required = &plan.required;
+    let integration = if EngineDeviation::GridIntegrals.applies_in(mode) { 2.0 } else { 20.0 };
     let pi = 4.0 * 1f64.atan();
     let all = [
-        (required.integrationmode, 2.0),
+        (required.integrationmode, integration),
         (required.polygonsides, 360.0),
         (required.pi, pi),
         (required.deg, pi / 180.0),

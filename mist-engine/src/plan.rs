@@ -76,6 +76,8 @@ pub(crate) struct RequiredVariables {
     pub(crate) polygonsides: u32,
     pub(crate) tolerance: u32,
     pub(crate) maxevaluations: u32,
+    /// True if VARIABLES or a loop gives `integrationmode`.
+    pub(crate) gives_mode: bool,
     pub(crate) pi: u32,
     pub(crate) deg: u32,
 }

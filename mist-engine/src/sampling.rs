@@ -130,6 +130,12 @@ impl Layout {
         sides.max(0.0) + if points.is_nan() { 0.0 } else { points }
     }
 
+    /// The distance (rad) of neighbouring directions in the middle of a region.
+    pub(crate) fn spacing(region: &Region, plane: &PlaneSampling) -> f64 {
+        let (step, _) = grid(region, plane);
+        step * plane.projection.area_per_area().sqrt()
+    }
+
     /// The number of chunks; a chunk has at most 512 directions.
     pub(crate) fn chunks(&self) -> usize {
         usize::try_from(self.plan.points().div_ceil(CHUNK)).unwrap_or(usize::MAX)

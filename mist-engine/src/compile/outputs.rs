@@ -12,6 +12,7 @@ use mist_format::{
 use super::binder::Binder;
 use crate::{
     DataFiles,
+    deviation::EngineDeviation,
     fault::fault,
     plan::{ColourSection, ErrorColumns, IntegralPlan, LoopPlan, OutputPlan, VariableEntry},
     sampling::IntegrationMode,
@@ -54,9 +55,12 @@ pub(super) fn errors(
         found.map(|(_, value)| value.number())
     };
     let numbers = || entries.iter().rev().filter(|entry| entry.slot.is_some());
-    let mode = numbers().find(|entry| name(entry) == "integrationmode")?;
-    let is_adaptive = number(mode.slot)
-        .is_some_and(|mode| IntegrationMode::decode(mode as i32) == Ok(IntegrationMode::Adaptive));
+    let is_adaptive = match numbers().find(|entry| name(entry) == "integrationmode") {
+        Some(mode) => number(mode.slot).is_some_and(|mode| {
+            IntegrationMode::decode(mode as i32) == Ok(IntegrationMode::Adaptive)
+        }),
+        None => !EngineDeviation::GridIntegrals.applies_in(binder.mode),
+    };
     let entry = numbers().find(|entry| name(entry) == "uncertainty")?;
     let value = number(entry.slot)?;
     if value == 0.0 || !(is_adaptive || varies(program, binder.library, "integrationmode")) {
@@ -79,7 +83,7 @@ pub(super) fn errors(
 }
 
 /// True if a loop changes the variable `name`.
-fn varies(program: &Program, library: &DataFiles, name: &str) -> bool {
+pub(super) fn varies(program: &Program, library: &DataFiles, name: &str) -> bool {
     program.loops.iter().any(|each| match each {
         Loop::For(statement) => statement.variable.as_str().eq_ignore_ascii_case(name),
         Loop::List(statement) => {

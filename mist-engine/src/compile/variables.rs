@@ -9,7 +9,7 @@ use mist_format::{
 };
 use scattering::Class;
 
-use super::binder::Binder;
+use super::{binder::Binder, outputs::varies};
 use crate::{
     DataFiles,
     fault::placed,
@@ -39,6 +39,8 @@ pub(super) fn required(program: &Program, binder: &mut Binder<'_>) -> RequiredVa
         polygonsides: binder.names.slot("polygonsides"),
         tolerance: binder.names.slot("tolerance"),
         maxevaluations: binder.names.slot("maxevaluations"),
+        gives_mode: program.variables.iter().any(|v| v.name.as_str() == "integrationmode")
+            || varies(program, binder.library, "integrationmode"),
         pi: binder.names.slot("pi"),
         deg: binder.names.slot("deg"),
     }

@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use scattering::{Direction, Incidence, Mueller, ParameterError};
 
-use super::models::{ModelCell, ModelId};
+use super::{
+    models::{ModelCell, ModelId},
+    remarks::AccuracyRemark,
+};
 use crate::{
-    integrate::{contract, integrate_counting},
+    integrate::{MissedLobe, contract, integrate_counting},
     region::{Region, RegionError},
     sampling::{
         Layout, SamplingRule,
@@ -89,6 +92,14 @@ impl MuellerResult {
     }
 }
 
+/// What a task gave.
+pub(super) struct TaskResult {
+    pub(super) found: MuellerResult,
+    /// Evaluations of the model.
+    pub(super) evaluations: u64,
+    pub(super) remark: Option<AccuracyRemark>,
+}
+
 /// Reason why a task has no result.
 pub(super) enum TaskError {
     Parameter(ParameterError),
@@ -115,13 +126,18 @@ impl IntegralTask {
         !(matches!(self.place, TaskDirections::Point(..)) && is_quick())
     }
 
-    /// The Mueller integral, and how many evaluations of the model it took.
+    /// The Mueller integral, and how many evaluations of the model it took. A grid in place of
+    /// `checked` is compared with lobes that may fall between its directions.
     pub(super) fn compute(
         &self,
         basis: scattering::Basis,
+        checked: Option<&StepIntegral>,
         stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<(MuellerResult, u64), TaskError> {
-        let exact = |(matrix, count)| (MuellerResult { matrix, error: None }, count);
+    ) -> Result<TaskResult, TaskError> {
+        let exact = |(matrix, evaluations)| {
+            let found = MuellerResult { matrix, error: None };
+            TaskResult { found, evaluations, remark: None }
+        };
         let built = || self.cell.get().map_err(|error| TaskError::Parameter(error.clone()));
         match &self.place {
             TaskDirections::Point(direction) => {
@@ -137,15 +153,25 @@ impl IntegralTask {
             TaskDirections::Area(layout) => {
                 let model = &built()?.model;
                 let found = integrate_counting(model, &self.incidence, basis, layout, stop);
-                found.map(exact).ok_or(TaskError::Stopped)
+                let found = found.ok_or(TaskError::Stopped)?;
+                let region = checked.and_then(|one| Some((&one.region, one.rule.plane()?.0)));
+                let missed = region.and_then(|region| {
+                    MissedLobe::find((model, &self.incidence, basis), region, &found.0, stop)
+                });
+                Ok(TaskResult { remark: missed.map(AccuracyRemark::Missed), ..exact(found) })
             }
             TaskDirections::Adaptive(aperture) => {
                 let (region, accuracy) = &**aperture;
                 let model = &built()?.model;
                 adaptive::integrate(model, &self.incidence, basis, region, accuracy, stop)
-                    .map(|found| {
-                        let (matrix, error) = (found.matrix, Some(Arc::new(found.error)));
-                        (MuellerResult { matrix, error }, found.evaluations)
+                    .map(|estimate| {
+                        let (matrix, error) = (estimate.matrix, Some(Arc::new(estimate.error)));
+                        let found = MuellerResult { matrix, error };
+                        let tolerance = accuracy.tolerance;
+                        let is_met = estimate.relative_error() <= tolerance;
+                        let remark =
+                            (!is_met).then_some(AccuracyRemark::Unmet { estimate, tolerance });
+                        TaskResult { found, evaluations: estimate.evaluations, remark }
                     })
                     .map_err(|error| match error {
                         AdaptiveError::Stopped => TaskError::Stopped,

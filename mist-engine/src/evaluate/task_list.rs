@@ -9,7 +9,7 @@ use super::{
     cache::FastMap,
     task::{
         ApertureId, IntegralKey, IntegralTask, MuellerResult, NumberedDirections, TaskDirections,
-        TaskError,
+        TaskError, TaskResult,
     },
 };
 use crate::{
@@ -31,7 +31,7 @@ pub(super) struct TaskList {
     /// Layouts that an earlier block has used.
     pub(super) again: Vec<Arc<Layout>>,
     /// Results of the tasks.
-    pub(super) done: Vec<Result<(MuellerResult, u64), TaskError>>,
+    pub(super) done: Vec<Result<TaskResult, TaskError>>,
     /// The integrals that were looked at last, and where they collect light.
     pub(super) integrals: Option<Arc<Vec<StepIntegral>>>,
     pub(super) apertures: Vec<(ApertureId, TaskDirections)>,

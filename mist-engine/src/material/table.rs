@@ -31,7 +31,7 @@ use crate::{
 };
 
 /// Relative error of a hemispherical reflectance.
-const ALBEDO: Accuracy = Accuracy { tolerance: 1e-6, budget: 400_000 };
+const ALBEDO: Accuracy = Accuracy::required(1e-6, 400_000);
 
 /// The colour table of `material`.
 ///

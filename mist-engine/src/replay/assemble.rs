@@ -21,11 +21,8 @@ use crate::{
     sweep::Sweep,
 };
 
-/// `tolerance`, unless VARIABLES has it.
-const TOLERANCE: f64 = 1e-6;
-
-/// `maxevaluations`, unless VARIABLES has it.
-const BUDGET: f64 = 1e7;
+/// The accuracy under `integrationmode = 20`, unless VARIABLES has `tolerance` or `maxevaluations`.
+const REQUIRED: Accuracy = Accuracy::required(1e-6, 10_000_000);
 
 impl<'j> Replay<'j> {
     /// The step with the present values.
@@ -33,11 +30,9 @@ impl<'j> Replay<'j> {
         let job = self.job;
         let required = &job.plan.required;
         let theta_i = self.required(required.incidentangle)?;
-        let differential = self.required(required.differential)?;
         let incident = self.incident()?;
-        let min_samples = self.required(required.minsamples)?;
         let rotation = self.required(required.rotation)?;
-        let rule = self.rule(differential, min_samples)?;
+        let rule = self.rule()?;
         let integrals = self.all_integrals(&rule, incident)?;
         let values = self.output_values();
         let sweep = self.sweep.as_ref();
@@ -140,11 +135,7 @@ impl<'j> Replay<'j> {
     /// Sampling rule of the integrals, by `integrationmode`.
     ///
     /// The inner error is that of an unknown mode.
-    fn rule(
-        &self,
-        differential: f64,
-        min_samples: f64,
-    ) -> Result<Result<SamplingRule, RegionError>, Fault> {
+    fn rule(&self) -> Result<Result<SamplingRule, RegionError>, Fault> {
         let (required, options) = (&self.job.plan.required, &self.job.options);
         let mode = self.required(required.integrationmode)? as i32;
         let (projection, is_random, is_normalized) = match IntegrationMode::decode(mode) {
@@ -156,6 +147,8 @@ impl<'j> Replay<'j> {
             }
             Err(error) => return Ok(Err(error)),
         };
+        let differential = self.required(required.differential)?;
+        let min_samples = self.required(required.minsamples)?;
         let sides = self.required(required.polygonsides)? as i32;
         let outlines = if EngineDeviation::PolygonApertures.applies_in(options.mode) {
             Outlines::Polygons { sides }
@@ -173,21 +166,25 @@ impl<'j> Replay<'j> {
 
     /// The accuracy of adaptive integrals, by `tolerance` and `maxevaluations`.
     fn accuracy(&self) -> Result<Accuracy, Fault> {
-        let RequiredVariables { tolerance, maxevaluations, .. } = self.job.plan.required;
+        let RequiredVariables { tolerance, maxevaluations, gives_mode, .. } =
+            self.job.plan.required;
         let number = |slot, default| self.values.get(slot).map_or(default, Value::number);
-        let tolerance = number(tolerance, TOLERANCE);
+        let is_required = gives_mode || self.values.get(tolerance).is_some();
+        let usual = if is_required { REQUIRED } else { Accuracy::DEFAULT };
+        let tolerance = number(tolerance, usual.tolerance);
         if !(tolerance > 0.0 && tolerance < 1.0) {
             let message = format!("tolerance = {tolerance} is not between 0 and 1");
             let help = "it is the relative error of an integral, such as tolerance = 1e-6";
             return Err(self.about("tolerance", message, help));
         }
-        let (budget, most) = (number(maxevaluations, BUDGET), self.job.options.limits.directions);
+        let budget = number(maxevaluations, usual.budget as f64);
+        let most = self.job.options.limits.directions;
         if !(budget >= 1.0 && budget <= most) {
             let message = format!("maxevaluations = {budget:e} is not from 1 to {most:e}");
             let help = "it is for one Mueller integral, which is held in memory";
             return Err(self.about("maxevaluations", message, help));
         }
-        Ok(Accuracy { tolerance, budget: budget as u64 })
+        Ok(Accuracy { tolerance, budget: budget as u64, is_required })
     }
 
     /// A fault of the variable `name`.
@@ -208,7 +205,12 @@ fn missing_required(program: &Program, name: &str) -> Fault {
         "rotation" => "rotation = 0",
         other => other,
     };
-    let message = format!("the variable {name} is missing; every program needs it");
+    let message = match name {
+        "differential" | "minsamples" => {
+            format!("the variable {name} is missing; a grid (integrationmode) needs it")
+        }
+        _ => format!("the variable {name} is missing; every program needs it"),
+    };
     Box::new(
         Diagnostic::error("program/missing-variable", program.sections.variables, message)
             .help(format!("write `{example}` in VARIABLES; the name is written in lower case")),

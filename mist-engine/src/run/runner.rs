@@ -99,6 +99,7 @@ impl<'a> Runner<'a> {
         self.summary.warnings.extend(self.outputs.not_finite.warnings(self.job, steps));
         self.summary.seconds = started.elapsed().as_secs_f64();
         self.summary.evaluations = self.meter.evaluations;
+        self.summary.warnings.extend(self.shared.warnings());
         Ok(())
     }
 

@@ -81,8 +81,9 @@ pub enum AdaptiveError {
 ///
 /// # Errors
 ///
-/// For regions that do not exist, where the budget does not suffice or the integrand is not
-/// finite, and when `stop` ends it.
+/// For regions that do not exist, when `stop` ends it, and, if the accuracy is required, where the
+/// budget does not suffice or the integrand is not finite. Otherwise the estimate stands with its
+/// error.
 pub fn integrate(
     model: &Model,
     incidence: &Incidence,
@@ -97,6 +98,21 @@ pub fn integrate(
     }
     let mut cubature = Cubature::new(&integrand, region, stop)?;
     cubature.refine(accuracy)
+}
+
+/// The width (rad) of the narrowest lobe of `model` in the likely directions, infinite if it has none
+/// that is narrower than a radian.
+pub(crate) fn narrowest_lobe(
+    model: &Model,
+    incidence: &Incidence,
+    basis: Basis,
+    region: &Region,
+) -> f64 {
+    let integrand = Integrand::new(model, incidence, basis, region);
+    let (peaks, _) = peaks::find(&integrand);
+    let peaks = peaks.iter().map(|peak| peak.width).filter(|width| *width < peaks::SMOOTH);
+    let cones = integrand.lobe_supports().into_iter().map(|cone| 2.0 * cone.half_angle);
+    peaks.chain(cones).fold(f64::INFINITY, f64::min)
 }
 
 /// The directions at which the cells that [`integrate`] ends with have their nodes, and the
@@ -159,7 +175,7 @@ impl<'a> Cubature<'a> {
         loop {
             let sum = self.total();
             if !sum.is_finite() {
-                return Err(AdaptiveError::NotFinite);
+                return if accuracy.is_required { Err(AdaptiveError::NotFinite) } else { Ok(sum) };
             }
             let (largest, error) = (sum.matrix.largest(), sum.error.largest());
             let target = (accuracy.tolerance * largest).max(FLOOR);
@@ -168,6 +184,9 @@ impl<'a> Cubature<'a> {
                 if is_reached { balance::too_long(&self.cells) } else { self.worst(target) };
             let fits = self.evaluations + (2 * NODES * split.len()) as u64 <= accuracy.budget;
             if is_reached && (split.is_empty() || !fits) {
+                return Ok(sum);
+            }
+            if !fits && !accuracy.is_required {
                 return Ok(sum);
             }
             if !fits {

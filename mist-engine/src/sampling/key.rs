@@ -14,8 +14,8 @@ impl LayoutKey {
     pub fn new(region: &Region, rule: &SamplingRule) -> Self {
         let mut bits = shape(region);
         match rule {
-            SamplingRule::Adaptive(Accuracy { tolerance, budget }) => {
-                bits.extend([tolerance.to_bits(), *budget]);
+            SamplingRule::Adaptive(Accuracy { tolerance, budget, is_required }) => {
+                bits.extend([tolerance.to_bits(), *budget, u64::from(*is_required)]);
             }
             _ if matches!(region, Region::Differential { .. }) => {}
             SamplingRule::Grid(plane) => bits.extend(numbers(plane, None)),

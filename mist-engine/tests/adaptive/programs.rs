@@ -82,7 +82,8 @@ fn a_grid_in_the_same_run_has_no_error() {
 
 #[test]
 fn uncertainty_means_nothing_without_adaptive_integrals() {
-    let program = FACETS.replace("integrationmode = 20", "").replace("4 relative=R.error/R", "");
+    let grid = FACETS.replace("integrationmode = 20", "integrationmode = 2");
+    let program = grid.replace("4 relative=R.error/R", "");
     let (sink, _) = run(&program.replace("uncertainty = 1", "uncertainty = 7"));
     assert_eq!(sink.results.lines().next().unwrap(), "total\tR\tsum\t");
 }

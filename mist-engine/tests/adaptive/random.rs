@@ -105,7 +105,7 @@ fn cases(lobes: impl Strategy<Value = Lobe>) -> impl Strategy<Value = Case> {
 
 fn estimate(case: &Case, tolerance: f64) -> Option<Estimate> {
     let (model, incidence) = (case.lobe.model(), Incidence::new(case.theta_i, 0.0));
-    let accuracy = Accuracy { tolerance, budget: 10_000_000 };
+    let accuracy = Accuracy::required(tolerance, 10_000_000);
     integrate(&model, &incidence, Basis::Psps, &case.region, &accuracy, &|| false).ok()
 }
 

@@ -185,7 +185,7 @@ fn check(case: &Case) -> Vec<String> {
     let incidence = Incidence::new(case.theta_i, 0.0);
     let mut complaints = Vec::new();
     for tolerance in [1e-3, 1e-4, 1e-6, 1e-8] {
-        let accuracy = Accuracy { tolerance, budget: 2_000_000 };
+        let accuracy = Accuracy::required(tolerance, 2_000_000);
         let found =
             integrate(&case.model, &incidence, Basis::Psps, &case.region, &accuracy, &|| false);
         let found = match found {
@@ -215,7 +215,7 @@ fn what_is_refused_has_not_reached_its_tolerance() {
     let incidence = Incidence::new(theta_i, 0.0);
     let (mut refused, mut last) = (0, None);
     for budget in (500..20_000).step_by(64) {
-        let accuracy = Accuracy { tolerance: 1e-3, budget };
+        let accuracy = Accuracy::required(1e-3, budget);
         match integrate(&model, &incidence, Basis::Psps, &region, &accuracy, &|| false) {
             Err(AdaptiveError::Budget { tolerance, reached, .. }) => {
                 assert!(reached > tolerance, "{reached} with {budget}");

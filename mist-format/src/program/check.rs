@@ -3,24 +3,33 @@
 use super::limits::MAX_ERRORS;
 use super::tree::{Loop, Program, VariableKind};
 use crate::diagnostic::Diagnostic;
+use crate::dialect::Dialect;
 use crate::span::Span;
 use crate::suggestion::did_you_mean;
 use std::collections::HashSet;
 
-/// Variables that NIST's program reads at every step; there are no defaults.
+/// Variables that NIST's program reads at every step; there are no defaults. The first two are the
+/// settings of a grid, which sound runs read for a grid only.
 pub const REQUIRED_VARIABLES: [&str; 5] =
     ["minsamples", "differential", "incidentangle", "incidentpol", "rotation"];
 
-pub(super) fn check(program: &Program) -> Vec<Diagnostic> {
-    let mut found = missing_variables(program);
+/// The number of settings of a grid at the beginning of [`REQUIRED_VARIABLES`].
+const GRID_SETTINGS: usize = 2;
+
+pub(super) fn check(program: &Program, dialect: Dialect) -> Vec<Diagnostic> {
+    let mut found = missing_variables(program, dialect);
     found.extend(unknown_loop_variables(program));
     found
 }
 
-fn missing_variables(program: &Program) -> Vec<Diagnostic> {
+fn missing_variables(program: &Program, dialect: Dialect) -> Vec<Diagnostic> {
     let end = program.sections.variables.end;
     let place = Span::new(end.saturating_sub("END".len()), end);
-    let missing = REQUIRED_VARIABLES.iter().filter(|wanted| !is_defined(program, wanted));
+    let wanted = match dialect {
+        Dialect::Sound => &REQUIRED_VARIABLES[GRID_SETTINGS..],
+        Dialect::Compat => &REQUIRED_VARIABLES[..],
+    };
+    let missing = wanted.iter().filter(|wanted| !is_defined(program, wanted));
     let found = missing.map(|wanted| {
         let other_case = program
             .variables

@@ -32,7 +32,7 @@ pub fn parse(text: &str, dialect: Dialect) -> Result<Program, Vec<Diagnostic>> {
     let program = parser.program();
     let mut found = parser.found;
     if let Ok(program) = program {
-        found.extend(check(&program));
+        found.extend(check(&program, dialect));
         if found.is_empty() {
             return Ok(Program { comments: parser.reader.into_comments(), ..program });
         }

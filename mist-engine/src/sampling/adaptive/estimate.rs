@@ -2,6 +2,8 @@
 
 use scattering::Mueller;
 
+use super::FLOOR;
+
 /// A Mueller integral and how far from the truth it may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
@@ -14,6 +16,13 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// The largest error of an element, relative to the largest element; 0 for errors that are
+    /// rounding whatever the integral is.
+    pub fn relative_error(&self) -> f64 {
+        let error = self.error.largest();
+        if error <= FLOOR { 0.0 } else { error / self.matrix.largest() }
+    }
+
     pub(super) fn is_finite(&self) -> bool {
         let finite = |m: &Mueller| m.0.iter().flatten().all(|x| x.is_finite());
         finite(&self.matrix) && finite(&self.error)

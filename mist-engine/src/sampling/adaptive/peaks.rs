@@ -44,7 +44,7 @@ const ROUNDING: f64 = 1e-8;
 const GROWTH: f64 = 1.7;
 
 /// The width of what is as smooth as the largest ring is wide.
-const SMOOTH: f64 = 1.0;
+pub(super) const SMOOTH: f64 = 1.0;
 
 /// The peaks of `integrand`, the narrowest first, and the number of evaluations.
 ///

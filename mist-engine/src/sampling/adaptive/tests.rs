@@ -10,7 +10,7 @@ use crate::{
     sampling::{Layout, PlaneSampling},
 };
 
-const ACCURACY: Accuracy = Accuracy { tolerance: 1e-9, budget: 10_000_000 };
+const ACCURACY: Accuracy = Accuracy::required(1e-9, 10_000_000);
 
 fn model(name: &str) -> Model {
     let class = &models::find(name).unwrap().class;
@@ -115,7 +115,7 @@ fn one_two_and_seven_threads_give_the_same_bits() {
 #[test]
 fn a_budget_that_does_not_suffice_is_an_error() {
     let rough = model("Microroughness_BRDF_Model");
-    let accuracy = Accuracy { tolerance: 1e-12, budget: 3_000 };
+    let accuracy = Accuracy::required(1e-12, 3_000);
     let incidence = Incidence::new(0.5, 0.0);
     let refused = integrate(&rough, &incidence, Basis::Psps, &Region::Hemi, &accuracy, &|| false);
     match refused {
