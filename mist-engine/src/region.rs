@@ -12,6 +12,7 @@ use thiserror::Error;
 mod caps;
 mod direction;
 mod outline;
+mod polar_cell;
 mod polygon;
 
 pub(crate) use outline::{AxisRotation, above_horizon, outline, refuse_crossing};
@@ -19,6 +20,7 @@ pub(crate) use polygon::{CellContent, Polygon, PolygonCells};
 
 pub use direction::PolarAngles;
 pub(crate) use direction::unit;
+pub use polar_cell::PolarCell;
 
 use caps::Cap;
 

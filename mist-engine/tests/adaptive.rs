@@ -1,5 +1,7 @@
 //! Adaptive integrals: against another method, and as programs reach them.
 
+#[path = "adaptive/defaults.rs"]
+mod defaults;
 #[path = "adaptive/plane.rs"]
 mod plane;
 #[path = "adaptive/programs.rs"]

@@ -8,14 +8,15 @@ use std::{
 use mist_engine::{
     Control, Files, Limits, MemoryFiles,
     material::{Material, table::mueller},
+    region::Region,
     request::{ColourQuery, Patch, PatchRow, TableDirections, TableRequest},
-    sampling::PlaneSampling,
+    sampling::adaptive::{Accuracy, integrate},
 };
 use rise_bridge::rise::{
     product::{self, BridgeFiles, BridgeOptions},
     table::{read, ring},
 };
-use scattering::{Basis, Mode};
+use scattering::{Basis, Incidence, Mode};
 
 const SCENE: &str = include_str!("data/two_balls.RISEscene");
 const NM: [f64; 5] = [450.0, 500.0, 550.0, 600.0, 650.0];
@@ -59,12 +60,8 @@ fn tables_are_read_back_and_are_nists_integrals_over_rings() {
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: false,
         basis: Basis::Psps,
-        // As the program says.
-        sampling: PlaneSampling {
-            differential: 1.5_f64.to_radians().powi(2),
-            min_samples: 400,
-            ..PlaneSampling::default()
-        },
+        // Adaptive, as the program.
+        sampling: None,
         limits: Limits::default(),
     };
     let rows = mueller(&gold, &request, &Control::default()).unwrap();
@@ -140,4 +137,46 @@ fn mistakes_of_a_scene_are_told_with_their_place() {
     assert!(error(&wrong).contains("neither s nor p"));
     let wrong = SCENE.replace("sdf.s = 0.5", "sdf.t = 0.5");
     assert!(error(&wrong).contains("no parameter t"), "{}", error(&wrong));
+}
+
+/// The rings of a table cover the hemisphere, so that they sum to its reflectance, at every width of
+/// the lobe.
+#[test]
+fn rings_sum_to_the_hemispherical_reflectance() {
+    let nm = [450.0, 550.0, 650.0];
+    for slope in [0.01, 0.03, 0.1, 0.3, 1.0] {
+        let scene = SCENE.replace("sdf.s = 0.5", &format!("sdf.s = {slope}"));
+        assert_ne!(scene, SCENE);
+        let wanted =
+            BridgeOptions { nodes: 7, wavelengths: nm.to_vec(), derive: false, bands: true };
+        let made =
+            product::make(&scene, "two_balls", &files(), &wanted, &Control::default()).unwrap();
+        let table = &made.tables["gold_b00.RISEdataBSDF"];
+        let json = format!(
+            r#"{{"model": "Facet_BRDF_Model", "parameters": {{"substrate": "gold.nk",
+            "sdf": "Gaussian_Slope_Distribution_Function", "sdf.s": {slope}}}}}"#
+        );
+        let gold = Material::from_json(&json).unwrap().prepare(Mode::Sound, Some(files())).unwrap();
+        for (band, nm) in nm.into_iter().enumerate() {
+            let (model, _) = gold.at(nm / 1000.0).model().unwrap();
+            for thetai in [0.0, 30.0, 75.0] {
+                let incidence = Incidence::new(f64::to_radians(thetai), 0.0);
+                let accuracy = Accuracy::required(1e-9, 10_000_000);
+                let all =
+                    integrate(&model, &incidence, Basis::Psps, &Region::Hemi, &accuracy, &|| false)
+                        .unwrap();
+                let sum: f64 = (0..7)
+                    .map(|r| {
+                        let (inner, outer) = ring(r, 7);
+                        let square = |t: f64| t.to_radians().sin().powi(2);
+                        let omega = std::f64::consts::PI * (square(outer) - square(inner));
+                        omega * table.at(incidence.theta(), r)[band]
+                    })
+                    .sum();
+                // Each ring has the default tolerance.
+                let (want, off) = (all.matrix[(0, 0)], 1e-5 * all.matrix[(0, 0)]);
+                assert!((sum - want).abs() < off, "slope {slope}, {thetai}°: {sum} {want}");
+            }
+        }
+    }
 }

@@ -62,7 +62,7 @@ fn of_material(mode: Mode, outlines: Outlines) -> ColourTable {
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,
-        sampling: PlaneSampling { outlines, ..PlaneSampling::default() },
+        sampling: Some(PlaneSampling { outlines, ..PlaneSampling::default() }),
         limits: Limits::default(),
     };
     table(&prepared, &request, &Control::default()).unwrap()

@@ -38,7 +38,7 @@ impl MissedLobe {
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
         let spacing = Layout::spacing(region, plane);
-        let width = adaptive::narrowest_lobe(model, incidence, basis, region);
+        let width = adaptive::narrowest_lobe(model, incidence, basis);
         if !(incidence.is_above() && spacing > width) {
             return None;
         }

@@ -225,7 +225,6 @@ mod tests {
         Control,
         material::{Material, table::table},
         request::{Patch, PatchRow, TableDirections, TableRequest},
-        sampling::PlaneSampling,
     };
 
     fn settings(filters: Vec<Filter>) -> ColourSettings {
@@ -265,7 +264,7 @@ mod tests {
                 incident: [1.0, 0.3, 0.1, 0.0],
                 stokes: true,
                 basis: Basis::Psps,
-                sampling: PlaneSampling::default(),
+                sampling: None,
                 limits: crate::Limits::default(),
             };
             let table = table(&glass(), &request, &Control::default()).unwrap();

@@ -1,9 +1,9 @@
 //! The directions that stand for a patch, with weights that sum to its mean.
 //!
-//! Cones, annuli and polygons are laid out as the integrals of programs. Cells and rings of grids
-//! are products of Gauss–Legendre rules in θ and φ with cos θ sin θ in the weights: exact for
-//! polynomials of degree 2n − 1, n ≥ 3 growing by one per degree of width, so a lobe of half a
-//! degree or wider is resolved to better than 10⁻³.
+//! Patches are integrated adaptively, and their means are divided by ∫ cos θ dΩ of the same
+//! subdivision, so that a perfect diffuser has its exact mean. With a [`PlaneSampling`] cones, annuli
+//! and polygons are laid out as the grids of programs, and cells and rings of grids are products of
+//! Gauss–Legendre rules in θ and φ with cos θ sin θ in the weights.
 
 use std::f64::consts::PI;
 
@@ -12,9 +12,13 @@ use scattering::{
 };
 
 use crate::{
-    region::{PolarAngles, Region, RegionError, unit},
+    region::{PolarAngles, PolarCell, Region, RegionError, unit},
     request::Patch,
-    sampling::{Layout, PlaneSampling, Scale, Scratch, sensitivity_rotation::SensitivityRotation},
+    sampling::{
+        Layout, PlaneSampling, Scale, Scratch,
+        adaptive::{self, Accuracy, AdaptiveError, Domain, KnownPeaks},
+        sensitivity_rotation::SensitivityRotation,
+    },
 };
 
 /// Directions that are evaluated at a time.
@@ -23,6 +27,10 @@ const BATCH: usize = 128;
 const PIECE: usize = 2048;
 /// Azimuths of a ring.
 const RING: usize = 360;
+/// About how many directions an adaptive patch has, at least.
+const ADAPTIVE: usize = 64;
+/// Accuracy of adaptive patches.
+pub(super) const ACCURACY: Accuracy = Accuracy { budget: 400_000, ..Accuracy::DEFAULT };
 
 /// The directions of many patches, one after the other.
 #[derive(Debug, Default)]
@@ -31,16 +39,19 @@ pub(super) struct Probes {
     weights: DirectionWeights,
     /// Per patch the end of its directions.
     ends: Vec<usize>,
+    /// Per patch its solid angle, if it is integrated adaptively: it has no directions then.
+    domains: Vec<Option<Domain>>,
+    /// Per patch about how many directions it and those before it have.
+    costs: Vec<usize>,
     /// Per patch its projected solid angle, sr.
     pub(super) omegas: Vec<f64>,
 }
 
-/// A cell in θ and φ, radians, with the centre of its polarization.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PolarCell {
-    pub(super) theta: (f64, f64),
-    pub(super) phi: (f64, f64),
-    pub(super) center: PolarAngles,
+/// Means of neighbouring patches.
+pub(super) struct PatchMeans {
+    pub(super) matrices: Vec<Mueller>,
+    /// The patch that missed its tolerance by most, and the relative error reached.
+    pub(super) unmet: Option<(usize, f64)>,
 }
 
 impl Probes {
@@ -48,24 +59,55 @@ impl Probes {
         self.ends.len()
     }
 
-    /// Number of directions of all patches.
+    /// Number of directions of all patches that have some.
     pub(super) fn directions(&self) -> usize {
         self.directions.len()
     }
 
-    /// Adds a patch around `center` (radians).
+    /// About how many directions are evaluated, at least.
+    pub(super) fn cost(&self) -> usize {
+        self.costs.last().copied().unwrap_or(0)
+    }
+
+    /// Adds a patch around `center` (radians), laid out in `plane` or adaptive.
     pub(super) fn add(
         &mut self,
         center: PolarAngles,
         patch: &Patch,
-        plane: &PlaneSampling,
+        plane: Option<&PlaneSampling>,
     ) -> Result<(), RegionError> {
         if *patch == Patch::Point {
             self.push(Direction::new(center.0, center.1), 1.0, [1.0, 0.0]);
             self.finish(0.0);
             return Ok(());
         }
-        self.add_region(&patch.region(center), plane)
+        let region = patch.region(center);
+        match plane {
+            Some(plane) => self.add_region(&region, plane),
+            None => {
+                let omega = region.projected_solid_angle();
+                self.add_domain(Domain::region(region)?, omega);
+                Ok(())
+            }
+        }
+    }
+
+    fn add_domain(&mut self, domain: Domain, omega: f64) {
+        self.finish(omega);
+        self.domains.pop();
+        self.domains.push(Some(domain));
+        if let Some(cost) = self.costs.last_mut() {
+            *cost += ADAPTIVE;
+        }
+    }
+
+    /// Adds a cell of a grid, as a product of rules or adaptive.
+    pub(super) fn add_cell(&mut self, cell: PolarCell, is_adaptive: bool) {
+        match cell.center {
+            _ if is_adaptive => self.add_domain(Domain::Cell(cell), cell.projected_solid_angle()),
+            Some(center) => self.add_product(&cell, center),
+            None => self.add_ring(cell.theta),
+        }
     }
 
     fn add_region(&mut self, region: &Region, plane: &PlaneSampling) -> Result<(), RegionError> {
@@ -88,8 +130,8 @@ impl Probes {
     }
 
     /// Adds a cell of a grid; its polarization is carried along from its centre.
-    pub(super) fn add_cell(&mut self, cell: &PolarCell) {
-        let turn = SensitivityRotation::towards(cell.center);
+    fn add_product(&mut self, cell: &PolarCell, center: PolarAngles) {
+        let turn = SensitivityRotation::towards(center);
         let nodes = |(a, b): (f64, f64)| {
             let n = ((b - a).to_degrees().ceil() as usize + 2).clamp(3, 24);
             gauss::legendre(n, a, b)
@@ -104,11 +146,11 @@ impl Probes {
             }
         }
         self.normalize(start);
-        self.finish((cell.phi.1 - cell.phi.0) * band(cell.theta));
+        self.finish(cell.projected_solid_angle());
     }
 
     /// Adds the ring between two polar angles (radians); each direction keeps its own s and p.
-    pub(super) fn add_ring(&mut self, theta: (f64, f64)) {
+    fn add_ring(&mut self, theta: (f64, f64)) {
         let start = self.weights.count();
         let n = ((theta.1 - theta.0).to_degrees().ceil() as usize + 2).clamp(3, 24);
         for (theta, w) in gauss::legendre(n, theta.0, theta.1) {
@@ -118,7 +160,8 @@ impl Probes {
             }
         }
         self.normalize(start);
-        self.finish(2.0 * PI * band(theta));
+        let ring = PolarCell { theta, phi: (-PI, PI), center: None };
+        self.finish(ring.projected_solid_angle());
     }
 
     fn push(&mut self, direction: Direction, weight: f64, turned: [f64; 2]) {
@@ -140,15 +183,19 @@ impl Probes {
     }
 
     fn finish(&mut self, omega: f64) {
+        let start = self.ends.last().copied().unwrap_or(0);
+        let cost = self.cost() + self.directions.len() - start;
         self.ends.push(self.directions.len());
+        self.domains.push(None);
+        self.costs.push(cost);
         self.omegas.push(omega);
     }
 
     /// Ranges of patches that make good pieces of work; they depend on nothing else.
     pub(super) fn pieces(&self) -> Vec<(usize, usize)> {
         let (mut pieces, mut first, mut start) = (Vec::new(), 0, 0);
-        for (at, &end) in self.ends.iter().enumerate() {
-            if end - start >= PIECE || at + 1 == self.ends.len() {
+        for (at, &end) in self.costs.iter().enumerate() {
+            if end - start >= PIECE || at + 1 == self.costs.len() {
                 pieces.push((first, at + 1));
                 (first, start) = (at + 1, end);
             }
@@ -156,12 +203,39 @@ impl Probes {
         pieces
     }
 
-    /// The mean Mueller BRDF (1/sr) of every patch from `first` to before `last`.
+    /// The mean Mueller BRDF (1/sr) of every patch from `first` to before `last`; nothing once `stop`
+    /// says so.
     pub(super) fn means(
         &self,
-        model: &Model,
-        incidence: &Incidence,
-        basis: Basis,
+        beam: (&Model, &Incidence, Basis),
+        (first, last): (usize, usize),
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Option<PatchMeans> {
+        let mut matrices = self.means_of_directions(beam, (first, last));
+        let mut unmet: Option<(usize, f64)> = None;
+        let mut peaks = None;
+        for (at, domain) in self.domains[first..last].iter().enumerate() {
+            let Some(domain) = domain else { continue };
+            let peaks = peaks.get_or_insert_with(|| KnownPeaks::find(beam.0, beam.1, beam.2));
+            matrices[at] = match adaptive::over(beam, domain, peaks, &ACCURACY, stop) {
+                Ok(found) => {
+                    let reached = found.relative_error();
+                    if reached > unmet.map_or(ACCURACY.tolerance, |(_, worst)| worst) {
+                        unmet = Some((first + at, reached));
+                    }
+                    found.matrix * (1.0 / found.area)
+                }
+                Err(AdaptiveError::Stopped) => return None,
+                Err(_) => Mueller::ZERO * f64::NAN,
+            };
+        }
+        Some(PatchMeans { matrices, unmet })
+    }
+
+    /// The means of the patches that have directions.
+    fn means_of_directions(
+        &self,
+        (model, incidence, basis): (&Model, &Incidence, Basis),
         (first, last): (usize, usize),
     ) -> Vec<Mueller> {
         let weights = self.weights.signed(model.turn_sign());
@@ -183,11 +257,6 @@ impl Probes {
         }
         means
     }
-}
-
-/// ∫ cos θ sin θ dθ.
-fn band((a, b): (f64, f64)) -> f64 {
-    0.5 * (b.sin().powi(2) - a.sin().powi(2))
 }
 
 /// The Voronoi intervals of `nodes` (degrees, rising) in 0…90.
@@ -241,7 +310,8 @@ mod tests {
                 let twice = if *phi == 0.0 || *phi == 180.0 { 1.0 } else { 2.0 };
                 let rad = |(a, b): (f64, f64)| (a.to_radians(), b.to_radians());
                 let (low, high) = rad(cell);
-                sum += twice * (high - low) * band(rad(theta));
+                let cell = PolarCell { theta: rad(theta), phi: (low, high), center: None };
+                sum += twice * cell.projected_solid_angle();
             }
         }
         assert!((sum - PI).abs() < 1e-14, "{sum}");

@@ -9,14 +9,17 @@ mod patches;
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
-use scattering::{Incidence, Model, Mueller, Stokes};
+use scattering::{Incidence, Mode, Model, Mueller, Stokes};
 use spectra::{ColourPlan, ColourSettings, Grid, Quantity};
 
 use patches::{IncidenceGroup, PatchTarget, check, of_grid, of_list, symmetry};
 
-use super::{MaterialError, PreparedMaterial, patch::Probes};
+use super::{
+    MaterialError, PreparedMaterial,
+    patch::{ACCURACY, PatchMeans, Probes},
+};
 use crate::{
-    Control,
+    Control, Warning,
     colour::{
         self, Albedo, ColourRow, ColourTable, RowOrder, TableAxis,
         fold::{coloured, interpolation},
@@ -25,13 +28,13 @@ use crate::{
     region::Region,
     request::{GridPatch, Patch, TableDirections, TableRequest},
     sampling::{
-        self,
+        Layout, PlaneSampling,
         adaptive::{self, Accuracy},
     },
 };
 
-/// Relative error of a hemispherical reflectance.
-const ALBEDO: Accuracy = Accuracy::required(1e-6, 400_000);
+/// Accuracy of a hemispherical reflectance.
+const ALBEDO: Accuracy = Accuracy { tolerance: 1e-6, budget: 400_000, is_required: false };
 
 /// The colour table of `material`.
 ///
@@ -51,8 +54,13 @@ pub fn table(
     let scale = scale(request.settings.quantity);
     let mut rows: Vec<Option<ColourRow>> = (0..work.rows).map(|_| None).collect();
     let (mut albedo, mut dark) = (Vec::new(), true);
+    let mut unmet: Option<UnmetPatch> = None;
     for (number, group) in work.groups.iter().enumerate() {
-        let means = work.means(group, control)?;
+        let (means, missed) = work.means(group, control)?;
+        if missed.as_ref().is_some_and(|one| unmet.as_ref().is_none_or(|u| u.reached < one.reached))
+        {
+            unmet = missed;
+        }
         let light = Stokes(request.incident);
         let finished: Vec<ColourRow> = (0..group.rows.len())
             .into_par_iter()
@@ -94,8 +102,33 @@ pub fn table(
         stokes,
     };
     let table = colours.table(head, rows.into_iter().flatten().collect(), albedo);
-    let warnings = request.warnings().into_iter().chain(material.warnings()).collect();
+    let warnings = request.warnings().into_iter().chain(material.warnings());
+    let warnings = warnings.chain(unmet.map(|unmet| unmet.warning())).collect();
     Ok(ColourTable { warnings, ..table })
+}
+
+/// A patch whose integral has not reached its tolerance.
+struct UnmetPatch {
+    /// thetai, thetas, phis, degrees.
+    angles: [f64; 3],
+    /// The relative error reached.
+    reached: f64,
+}
+
+impl UnmetPatch {
+    fn message(&self) -> String {
+        let ([thetai, thetas, phis], reached) = (self.angles, self.reached);
+        let (tolerance, budget) = (ACCURACY.tolerance, ACCURACY.budget);
+        format!(
+            "thetai {thetai}, thetas {thetas}, phis {phis}: the relative error of the mean is \
+             {reached:.1e} after {budget} evaluations of the model, more than {tolerance:e}"
+        )
+    }
+
+    fn warning(&self) -> Warning {
+        let help = "leave the direction of the mirror out, or take smaller patches";
+        Warning::new("integral/accuracy", self.message() + "; the value stands").help(help)
+    }
 }
 
 /// Factor from a BRDF (1/sr) to `quantity`.
@@ -120,7 +153,7 @@ pub struct MuellerRow {
 ///
 /// # Errors
 ///
-/// As [`table`].
+/// As [`table`], and for a patch whose integral does not reach its tolerance.
 pub fn mueller(
     material: &PreparedMaterial,
     request: &TableRequest,
@@ -129,7 +162,10 @@ pub fn mueller(
     let work = TableComputation::new(material, request)?;
     let mut rows: Vec<Option<MuellerRow>> = (0..work.rows).map(|_| None).collect();
     for (number, group) in work.groups.iter().enumerate() {
-        let means = work.means(group, control)?;
+        let (means, unmet) = work.means(group, control)?;
+        if let Some(unmet) = unmet {
+            return Err(MaterialError::Limit(unmet.message()));
+        }
         for (k, PatchTarget { row, angles, flags }) in group.rows.iter().enumerate() {
             let matrices: Vec<Mueller> = means.iter().map(|m| m[k]).collect();
             let finite = |m: &Mueller| m.to_row_major().iter().all(|x| x.is_finite());
@@ -224,16 +260,20 @@ struct TableComputation<'a> {
     probes: Vec<Probes>,
     groups: Vec<IncidenceGroup>,
     rows: usize,
+    mode: Mode,
 }
 
 impl<'a> TableComputation<'a> {
     fn new(material: &PreparedMaterial, request: &'a TableRequest) -> Result<Self, MaterialError> {
         check(request)?;
+        let mode = material.mode();
+        let usual = (mode == Mode::Compat).then(PlaneSampling::default);
+        let plane = request.sampling.or(usual);
         let (probes, groups, rows) = match &request.directions {
-            TableDirections::Grid(grid) => of_grid(grid, request)?,
-            TableDirections::List(list) => of_list(list, request)?,
+            TableDirections::Grid(grid) => of_grid(grid, request, plane.as_ref())?,
+            TableDirections::List(list) => of_list(list, request, plane.as_ref())?,
         };
-        let each = |group: &IncidenceGroup| probes[group.probes].directions() as f64;
+        let each = |group: &IncidenceGroup| probes[group.probes].cost() as f64;
         let cost = groups.iter().map(each).sum::<f64>() * request.wavelengths.len() as f64;
         if cost > request.limits.evaluations {
             let limit = request.limits.evaluations;
@@ -241,29 +281,42 @@ impl<'a> TableComputation<'a> {
             return Err(MaterialError::Limit(message));
         }
         let models = material.models(&request.wavelengths)?;
-        Ok(Self { request, models, probes, groups, rows })
+        Ok(Self { request, models, probes, groups, rows, mode })
     }
 
-    /// Per wavelength the means of the rows of `group`.
+    /// Per wavelength the means of the rows of `group`, and the patch that missed its tolerance by
+    /// most.
     fn means(
         &self,
         group: &IncidenceGroup,
         control: &Control,
-    ) -> Result<Vec<Vec<Mueller>>, MaterialError> {
+    ) -> Result<(Vec<Vec<Mueller>>, Option<UnmetPatch>), MaterialError> {
         let probes = &self.probes[group.probes];
         let incidence = Incidence::new(group.thetai.to_radians(), 0.0);
         let pieces = probes.pieces();
         let work: Vec<_> =
             self.models.iter().flat_map(|m| pieces.iter().map(move |piece| (m, *piece))).collect();
-        let done: Option<Vec<Vec<Mueller>>> = work
+        let stop = || control.is_cancelled();
+        let done: Option<Vec<PatchMeans>> = work
             .into_par_iter()
             .map(|(model, piece)| {
-                (!control.is_cancelled())
-                    .then(|| probes.means(model, &incidence, self.request.basis, piece))
+                let beam = (model, &incidence, self.request.basis);
+                (!stop()).then(|| probes.means(beam, piece, &stop)).flatten()
             })
             .collect();
         let done = done.ok_or(MaterialError::Cancelled)?;
-        Ok(done.chunks(pieces.len().max(1)).map(<[_]>::concat).collect())
+        let mut unmet: Option<(usize, f64)> = None;
+        for (patch, reached) in done.iter().filter_map(|part| part.unmet) {
+            if unmet.is_none_or(|(_, worst)| worst < reached) {
+                unmet = Some((patch, reached));
+            }
+        }
+        let unmet =
+            unmet.map(|(patch, reached)| UnmetPatch { angles: group.rows[patch].angles, reached });
+        let joined = |parts: &[PatchMeans]| {
+            parts.iter().flat_map(|part| part.matrices.iter().copied()).collect()
+        };
+        Ok((done.chunks(pieces.len().max(1)).map(joined).collect(), unmet))
     }
 
     fn albedo(
@@ -278,11 +331,13 @@ impl<'a> TableComputation<'a> {
         let one = |model: &Model| {
             let basis = self.request.basis;
             let hemi = Region::Hemi;
-            let adaptive = adaptive::integrate(model, &incidence, basis, &hemi, &ALBEDO, &stop);
+            let accuracy = Accuracy { is_required: self.mode == Mode::Compat, ..ALBEDO };
+            let adaptive = adaptive::integrate(model, &incidence, basis, &hemi, &accuracy, &stop);
             let matrix = match adaptive {
-                Ok(estimate) => estimate.matrix,
-                Err(_) => {
-                    let layout = sampling::Layout::new(&hemi, &self.request.sampling, None)
+                Ok(estimate) if estimate.matrix[(0, 0)].is_finite() => estimate.matrix,
+                _ => {
+                    let plane = self.request.sampling.unwrap_or_default();
+                    let layout = Layout::new(&hemi, &plane, None)
                         .map_err(|error| MaterialError::Patch { number: 1, error })?;
                     integrate(model, &incidence, basis, &layout, &stop)
                         .ok_or(MaterialError::Cancelled)?

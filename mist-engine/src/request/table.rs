@@ -83,7 +83,7 @@ impl TableQuery {
             },
             stokes: self.stokes,
             basis: read("basis", self.basis.as_deref().unwrap_or("psps"))?,
-            sampling: PlaneSampling::default(),
+            sampling: None,
             limits: Limits::default(),
         })
     }
@@ -133,8 +133,9 @@ pub struct TableRequest {
     pub stokes: bool,
     /// The polarization basis.
     pub basis: Basis,
-    /// Sampling of cones, annuli and polygons.
-    pub sampling: PlaneSampling,
+    /// Grid in which cones, annuli and polygons are laid out. Without it patches are adaptive in
+    /// sound mode and have the default grid in compat mode.
+    pub sampling: Option<PlaneSampling>,
     /// Limits of the cost; they change no value.
     pub limits: Limits,
 }
@@ -172,7 +173,7 @@ struct TableRequestJson<'a> {
     incident: IncidentLight,
     stokes: bool,
     basis: &'static str,
-    sampling: SamplingJson,
+    sampling: Option<SamplingJson>,
 }
 
 /// The canonical JSON of a [`PlaneSampling`].
@@ -209,7 +210,7 @@ impl Serialize for TableRequest {
             incident: IncidentLight(self.incident),
             stokes: self.stokes,
             basis: self.basis.name(),
-            sampling: SamplingJson::from(&self.sampling),
+            sampling: self.sampling.as_ref().map(SamplingJson::from),
         };
         json.serialize(serializer)
     }

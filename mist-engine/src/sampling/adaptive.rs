@@ -23,6 +23,7 @@ use crate::region::{Region, RegionError};
 mod balance;
 mod boundary;
 mod cell;
+mod domain;
 mod estimate;
 mod first;
 mod gauss;
@@ -32,6 +33,7 @@ mod rays;
 mod slice;
 
 pub use super::accuracy::Accuracy;
+pub use domain::{Domain, KnownPeaks};
 pub use estimate::Estimate;
 
 use cell::{CubatureCell, MeasuredCell, NODES};
@@ -92,27 +94,36 @@ pub fn integrate(
     accuracy: &Accuracy,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Estimate, AdaptiveError> {
-    let integrand = Integrand::new(model, incidence, basis, region);
     if let Region::Differential { center } = region {
-        return Ok(integrand.one(*center));
+        return Ok(Integrand::new(model, incidence, basis, None).one(*center));
     }
-    let mut cubature = Cubature::new(&integrand, region, stop)?;
-    cubature.refine(accuracy)
+    let peaks = KnownPeaks::find(model, incidence, basis);
+    let domain = Domain::Region(region.clone());
+    let mut found = over((model, incidence, basis), &domain, &peaks, accuracy, stop)?;
+    found.evaluations += peaks.evaluations;
+    Ok(found)
+}
+
+/// [`integrate`] over any domain, with peaks that are known.
+///
+/// # Errors
+///
+/// Those of [`integrate`].
+pub fn over(
+    (model, incidence, basis): (&Model, &Incidence, Basis),
+    domain: &Domain,
+    peaks: &KnownPeaks,
+    accuracy: &Accuracy,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Estimate, AdaptiveError> {
+    let integrand = Integrand::new(model, incidence, basis, domain.rotation());
+    Cubature::new(&integrand, domain, peaks, stop)?.refine(accuracy)
 }
 
 /// The width (rad) of the narrowest lobe of `model` in the likely directions, infinite if it has none
 /// that is narrower than a radian.
-pub(crate) fn narrowest_lobe(
-    model: &Model,
-    incidence: &Incidence,
-    basis: Basis,
-    region: &Region,
-) -> f64 {
-    let integrand = Integrand::new(model, incidence, basis, region);
-    let (peaks, _) = peaks::find(&integrand);
-    let peaks = peaks.iter().map(|peak| peak.width).filter(|width| *width < peaks::SMOOTH);
-    let cones = integrand.lobe_supports().into_iter().map(|cone| 2.0 * cone.half_angle);
-    peaks.chain(cones).fold(f64::INFINITY, f64::min)
+pub(crate) fn narrowest_lobe(model: &Model, incidence: &Incidence, basis: Basis) -> f64 {
+    KnownPeaks::find(model, incidence, basis).narrowest()
 }
 
 /// The directions at which the cells that [`integrate`] ends with have their nodes, and the
@@ -129,8 +140,10 @@ pub(crate) fn nodes(
     accuracy: &Accuracy,
     visit: &mut dyn FnMut(DVec3, &Mueller),
 ) -> Result<(), AdaptiveError> {
-    let integrand = Integrand::new(model, incidence, basis, region);
-    let mut cubature = Cubature::new(&integrand, region, &|| false)?;
+    let (peaks, domain) =
+        (KnownPeaks::find(model, incidence, basis), Domain::Region(region.clone()));
+    let integrand = Integrand::new(model, incidence, basis, domain.rotation());
+    let mut cubature = Cubature::new(&integrand, &domain, &peaks, &|| false)?;
     cubature.refine(accuracy)?;
     for measured in &cubature.cells {
         let mut at = measured.cell.nodes(&measured.cell.fan(&cubature.rays));
@@ -156,16 +169,16 @@ struct Cubature<'a> {
 }
 
 impl<'a> Cubature<'a> {
-    /// The first cells of `region`, measured.
+    /// The first cells of `domain`, measured.
     fn new(
         integrand: &'a Integrand<'a>,
-        region: &Region,
+        domain: &Domain,
+        peaks: &KnownPeaks,
         stop: &'a (dyn Fn() -> bool + Sync),
     ) -> Result<Self, AdaptiveError> {
-        let (peaks, probes) = peaks::find(integrand);
-        let rays = Rays::new(region, peaks[0], &integrand.lobe_supports())?;
-        let first = rays.first_cells(&peaks[1..]);
-        let mut cubature = Self { integrand, rays, stop, cells: Vec::new(), evaluations: probes };
+        let (rays, towards) = domain.rays(peaks)?;
+        let first = rays.first_cells(towards);
+        let mut cubature = Self { integrand, rays, stop, cells: Vec::new(), evaluations: 0 };
         cubature.cells = cubature.measure(first)?;
         Ok(cubature)
     }
@@ -222,9 +235,10 @@ impl<'a> Cubature<'a> {
 
     fn total(&self) -> Estimate {
         let mut sum = Estimate { evaluations: self.evaluations, ..Estimate::default() };
-        for MeasuredCell { matrix, error, .. } in &self.cells {
+        for MeasuredCell { matrix, error, area, .. } in &self.cells {
             sum.matrix += *matrix;
             sum.error += *error;
+            sum.area += area;
         }
         sum
     }

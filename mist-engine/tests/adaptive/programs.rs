@@ -1,4 +1,4 @@
-//! Programs with `integrationmode = 20`.
+//! Programs with `integrationmode = 20`, and with none.
 
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ fn run_in(mode: Mode, program: &str) -> Result<(MemorySink, RunSummary), Failure
     Ok((sink, summary))
 }
 
-fn run(program: &str) -> (MemorySink, RunSummary) {
+pub(crate) fn run(program: &str) -> (MemorySink, RunSummary) {
     run_in(Mode::Sound, program).unwrap()
 }
 
@@ -44,7 +44,7 @@ fn refused(program: &str) -> String {
     }
 }
 
-fn numbers(sink: &MemorySink, line: usize) -> Vec<f64> {
+pub(crate) fn numbers(sink: &MemorySink, line: usize) -> Vec<f64> {
     let line = sink.results.lines().nth(line).unwrap();
     line.split('\t').filter(|cell| !cell.is_empty()).map(|cell| cell.parse().unwrap()).collect()
 }
@@ -171,4 +171,59 @@ fn the_orders_of_a_grating_are_found_and_cut_exactly() {
     assert!(a[0] > 0.0 && (g[0] / a[0] - 1.0).abs() < 0.1, "{a:?} {g:?}");
     assert!((g[1] / a[1] - 1.0).abs() < 0.02, "{a:?} {g:?}");
     assert!(spent.evaluations < 1e6, "{}", spent.evaluations);
+}
+
+#[test]
+fn without_a_mode_a_narrow_lobe_is_integrated_whatever_the_settings_of_a_grid_are() {
+    let lobe = FACETS.replace("#sdf.s = 0.01", "#sdf.s = 0.05");
+    let exact = numbers(&run(&lobe).0, 1)[0];
+    let settings = "differential = 1e-3  minsamples = 100\n";
+    let mode = "  integrationmode = 20  tolerance = 1e-7  uncertainty = 1";
+    for grid in ["differential = 1  minsamples = 1", ""] {
+        let program = lobe.replace(settings, grid).replace(mode, "\n  uncertainty = 1");
+        let (sink, summary) = run(&program);
+        let row = numbers(&sink, 1);
+        assert!((row[0] - exact).abs() <= row[1] && row[1] <= 1e-5 * exact, "{row:?} {exact}");
+        assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);
+    }
+}
+
+#[test]
+fn a_grid_that_misses_a_lobe_is_told_with_the_adaptive_value() {
+    let lobe = FACETS.replace("#sdf.s = 0.01", "#sdf.s = 0.05").replace("uncertainty = 1", "");
+    let lobe = lobe.replace("4 relative=R.error/R", "").replace("tolerance = 1e-7", "");
+    let grid = |differential: &str| {
+        let settings = format!("differential = {differential}");
+        let program = lobe.replace("integrationmode = 20", "integrationmode = 2");
+        run(&program.replace("differential = 1e-3", &settings)).1.warnings
+    };
+    let told = grid("1");
+    assert!(told.iter().any(|d| d.code == "integral/missed-lobe"), "{told:?}");
+    let of_hemisphere = told.iter().find(|d| d.message.starts_with("H:")).unwrap();
+    assert!(of_hemisphere.message.contains("3.6434"), "{of_hemisphere:?}");
+    assert!(grid("1e-4").is_empty(), "{:?}", grid("1e-4"));
+}
+
+#[test]
+fn an_error_above_the_default_tolerance_is_told_and_the_value_stands() {
+    let program = FACETS.replace("integrationmode = 20  tolerance = 1e-7", "maxevaluations = 3000");
+    let (sink, summary) = run(&program);
+    let row = numbers(&sink, 1);
+    assert!(row[2].is_finite() && row[3] > 1e-5 * row[2], "{row:?}");
+    assert!(summary.warnings.iter().any(|d| d.code == "integral/accuracy"), "{summary:?}");
+}
+
+#[test]
+fn a_grid_needs_its_settings_and_compat_keeps_the_grid() {
+    let settings = "differential = 1e-3  minsamples = 100\n";
+    let said = refused(
+        &FACETS.replace(settings, "").replace("integrationmode = 20", "integrationmode = 2"),
+    );
+    assert!(said.contains("differential is missing"), "{said}");
+    let plain = FACETS.replace("integrationmode = 20  tolerance = 1e-7  uncertainty = 1", "");
+    let plain = plain.replace("4 relative=R.error/R", "");
+    assert!(run_in(Mode::Compat, &plain.replace(settings, "")).is_err());
+    let grid = plain.replace("#sdf.s", "integrationmode = 2\n  #sdf.s");
+    let [a, b] = [&plain, &grid].map(|p| run_in(Mode::Compat, p).unwrap().0.results);
+    assert_eq!(a, b);
 }

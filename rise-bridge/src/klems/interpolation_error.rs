@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{
     basis::{KlemsPatch, containing, patches},
-    mean::{equal_energy, mean},
+    mean::{MeansUnderLight, equal_energy},
 };
 use crate::export::{Bands, ExportError, InterpolationError, r4_sequence};
 
@@ -22,7 +22,7 @@ pub fn interpolation_error(bands: &Bands) -> Result<InterpolationError, ExportEr
         let [a, b, c, d] = r4_sequence(n);
         let (light, leaving) = (hemisphere.direction(a, b), hemisphere.direction(c, d));
         let middle = patches[containing(light)].centre();
-        let patch = mean(bands, &plan, middle, &patches[containing(leaving)]);
+        let patch = MeansUnderLight::new(bands, &plan, middle).xyz(&patches[containing(leaving)]);
         let spectrum: Vec<f64> = bands.unpolarized(light, leaving).collect();
         let (Ok(patch), exact) = (patch, plan.unpolarized(&spectrum).y) else { return Vec::new() };
         // Directions are uniform in projected solid angle.

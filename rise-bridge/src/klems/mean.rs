@@ -1,14 +1,23 @@
 //! XYZ of the mean BRDF of a patch.
 
 use glam::DVec3;
-use mist_engine::{material::MaterialError, request::ColourQuery};
+use mist_engine::{
+    material::MaterialError,
+    region::PolarCell,
+    request::ColourQuery,
+    sampling::adaptive::{self, Accuracy, Domain, KnownPeaks},
+};
+use scattering::{Basis, Incidence, Model};
 use spectra::{ColourPlan, Grid};
 
 use super::basis::KlemsPatch;
 use crate::export::{Bands, ExportError};
 
-/// Directions along each side of a patch.
-const SAMPLES: usize = 4;
+/// Accuracy of the mean of a patch.
+const ACCURACY: Accuracy = Accuracy { budget: 400_000, ..Accuracy::DEFAULT };
+
+/// Largest relative error of the mean of a patch that a file holds.
+const LARGEST_ERROR: f64 = 1e-3;
 
 /// The plan of CIE XYZ under equal energy.
 pub(super) fn equal_energy(bands: &Bands) -> Result<ColourPlan, ExportError> {
@@ -19,24 +28,58 @@ pub(super) fn equal_energy(bands: &Bands) -> Result<ColourPlan, ExportError> {
     ColourPlan::new(&grid, names.settings(None)?).map_err(|error| wrong(&error))
 }
 
-/// XYZ of the mean BRDF over the patch `to`.
-pub(super) fn mean(
-    bands: &Bands,
-    plan: &ColourPlan,
+/// The mean BRDFs of patches under light from one direction.
+pub(super) struct MeansUnderLight<'a> {
+    bands: &'a Bands,
+    plan: &'a ColourPlan,
     light: DVec3,
-    to: &KlemsPatch,
-) -> Result<[f64; 3], ExportError> {
-    let mut spectrum = vec![0.0; bands.nm().len()];
-    for k in 0..SAMPLES * SAMPLES {
-        let [u, w] = [k / SAMPLES, k % SAMPLES].map(|i| (i as f64 + 0.5) / SAMPLES as f64);
-        for (sum, f) in spectrum.iter_mut().zip(bands.unpolarized(light, to.direction(u, w))) {
-            *sum += f / (SAMPLES * SAMPLES) as f64;
+    incidence: Incidence,
+    /// Azimuth of the mirror direction.
+    mirror: f64,
+    /// Per wavelength.
+    peaks: Vec<KnownPeaks>,
+}
+
+impl<'a> MeansUnderLight<'a> {
+    /// For light from the unit vector `light`.
+    pub(super) fn new(bands: &'a Bands, plan: &'a ColourPlan, light: DVec3) -> Self {
+        let mirror =
+            if light.x == 0.0 && light.y == 0.0 { 0.0 } else { (-light.y).atan2(-light.x) };
+        let incidence = Incidence::new(light.x.hypot(light.y).atan2(light.z), 0.0);
+        let find = |model: &Model| KnownPeaks::find(model, &incidence, Basis::Psps);
+        let peaks = bands.models().iter().map(find).collect();
+        Self { bands, plan, light, incidence, mirror, peaks }
+    }
+
+    /// XYZ of the mean BRDF over the patch `to`, each wavelength adaptive.
+    ///
+    /// # Errors
+    ///
+    /// If a mean is not finite, or has an error above [`LARGEST_ERROR`] when the evaluations are
+    /// spent.
+    pub(super) fn xyz(&self, to: &KlemsPatch) -> Result<[f64; 3], ExportError> {
+        let start = to.phi - 0.5 * to.width - self.mirror;
+        let (theta, phi) = ((to.lower, to.upper), (start, start + to.width));
+        let cell = Domain::Cell(PolarCell { theta, phi, center: None });
+        let mut spectrum = Vec::with_capacity(self.peaks.len());
+        for (at, (model, peaks)) in self.bands.models().iter().zip(&self.peaks).enumerate() {
+            let beam = (model, &self.incidence, Basis::Psps);
+            let place = || format!("light from {:.3}, {} nm", self.light, self.bands.nm()[at]);
+            let found = adaptive::over(beam, &cell, peaks, &ACCURACY, &|| false);
+            match found.map(|found| (found.matrix[(0, 0)] / found.area, found.relative_error())) {
+                Ok((f, reached)) if f.is_finite() && reached <= LARGEST_ERROR => spectrum.push(f),
+                Ok((f, reached)) if f.is_finite() => {
+                    let problem = format!(
+                        "{}: the relative error of a patch is {reached:.1e}, more than \
+                         {LARGEST_ERROR:e}",
+                        place()
+                    );
+                    return Err(ExportError::refused("material", problem));
+                }
+                _ => return Err(MaterialError::NotFinite(place()).into()),
+            }
         }
+        let xyz = self.plan.unpolarized(&spectrum);
+        Ok([xyz.x, xyz.y, xyz.z].map(|x| x.max(0.0)))
     }
-    if let Some(bad) = spectrum.iter().position(|f| !f.is_finite()) {
-        let place = format!("light from {light:.3}, {} nm", bands.nm()[bad]);
-        return Err(MaterialError::NotFinite(place).into());
-    }
-    let xyz = plan.unpolarized(&spectrum);
-    Ok([xyz.x, xyz.y, xyz.z].map(|x| x.max(0.0)))
 }

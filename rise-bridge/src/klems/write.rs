@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::{
     basis::{BASIS, RINGS, patches},
-    mean::{equal_energy, mean},
+    mean::{MeansUnderLight, equal_energy},
 };
 use crate::export::{Bands, ExportError};
 
@@ -39,8 +39,9 @@ pub fn write<W: Write>(
         // The index of an incident patch is that of the direction in which its light travels.
         let middle = from.centre();
         let light = DVec3::new(-middle.x, -middle.y, middle.z);
+        let means = MeansUnderLight::new(bands, &plan, light);
         let column: Result<Vec<[f64; 3]>, ExportError> =
-            patches.par_iter().map(|to| mean(bands, &plan, light, to)).collect();
+            patches.par_iter().map(|to| means.xyz(to)).collect();
         columns.push(column?);
         control.report((k + 1) as f64 / patches.len() as f64);
     }

@@ -111,6 +111,17 @@ pub struct LobeSupport {
     pub half_angle: f64,
 }
 
+impl LobeSupport {
+    /// The cone behind a face, seen from inside of a medium of the relative index `index`, as it is
+    /// outside: its rim is no circle any more. None if it is reflected totally.
+    pub(crate) fn refracted(self, index: f64) -> Option<Self> {
+        let (x, y) = (index * self.axis.x, index * self.axis.y);
+        let cos = (1.0 - x * x - y * y).sqrt();
+        let half_angle = self.half_angle * index * self.axis.z / cos;
+        (half_angle < 1.0).then(|| Self { axis: DVec3::new(x, y, cos), half_angle })
+    }
+}
+
 /// Parameters of every model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommonParameters {

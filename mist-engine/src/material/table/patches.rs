@@ -1,18 +1,21 @@
 //! The patches of a table: checked, grouped by their angle of incidence, with their directions.
 
-use std::{collections::HashMap, f64::consts::FRAC_PI_2};
+use std::{
+    collections::HashMap,
+    f64::consts::{FRAC_PI_2, PI},
+};
 
 use spectra::Quantity;
 
 use super::super::{
     MaterialError,
-    patch::{PolarCell, Probes, azimuth_cells, polar_cells},
+    patch::{Probes, azimuth_cells, polar_cells},
 };
 use crate::{
     colour::{ColourRow, Symmetry},
-    region::Region,
+    region::{PolarCell, Region},
     request::{GridPatch, GridRequest, Patch, PatchRow, TableDirections, TableRequest},
-    sampling,
+    sampling::{Layout, PlaneSampling},
 };
 
 /// In the place of angles of 90° and more.
@@ -93,7 +96,11 @@ pub(super) type Parts = (Vec<Probes>, Vec<IncidenceGroup>, usize);
 /// # Errors
 ///
 /// For patches that cannot be integrated over, and too many directions.
-pub(super) fn of_grid(grid: &GridRequest, request: &TableRequest) -> Result<Parts, MaterialError> {
+pub(super) fn of_grid(
+    grid: &GridRequest,
+    request: &TableRequest,
+    plane: Option<&PlaneSampling>,
+) -> Result<Parts, MaterialError> {
     let mut probes = Probes::default();
     let mut nodes = Vec::new();
     let mirror = symmetry(&grid.phis) == Symmetry::Mirror;
@@ -108,13 +115,16 @@ pub(super) fn of_grid(grid: &GridRequest, request: &TableRequest) -> Result<Part
                 GridPatch::Circle(alpha) => Patch::Circle(alpha),
                 _ => Patch::Point,
             };
+            let cell = |phi, center| PolarCell { theta, phi, center };
             match grid.patch {
                 GridPatch::Cell if !empty => {
-                    probes.add_cell(&PolarCell { theta, phi: rad(*phi), center });
+                    probes.add_cell(cell(rad(*phi), Some(center)), plane.is_none());
                 }
-                GridPatch::Ring if !empty => probes.add_ring(theta),
-                _ => admit(&probes, &patch, request)
-                    .and_then(|()| probes.add(center, &patch, &request.sampling).map_err(error))?,
+                GridPatch::Ring if !empty => {
+                    probes.add_cell(cell((-PI, PI), None), plane.is_none());
+                }
+                _ => admit(&probes, &patch, (request, plane))
+                    .and_then(|()| probes.add(center, &patch, plane).map_err(error))?,
             }
             within(&probes, request)?;
             nodes.push((*thetas, *phis));
@@ -141,7 +151,11 @@ pub(super) fn of_grid(grid: &GridRequest, request: &TableRequest) -> Result<Part
 /// # Errors
 ///
 /// As [`of_grid`], and for angles that are not finite.
-pub(super) fn of_list(list: &[PatchRow], request: &TableRequest) -> Result<Parts, MaterialError> {
+pub(super) fn of_list(
+    list: &[PatchRow],
+    request: &TableRequest,
+    plane: Option<&PlaneSampling>,
+) -> Result<Parts, MaterialError> {
     let (mut probes, mut groups): (Vec<Probes>, Vec<IncidenceGroup>) = Default::default();
     let mut known: HashMap<u64, usize> = HashMap::new();
     for (row, place) in list.iter().enumerate() {
@@ -161,10 +175,10 @@ pub(super) fn of_list(list: &[PatchRow], request: &TableRequest) -> Result<Parts
             });
             groups.len() - 1
         });
-        admit(&probes[at], patch, request)?;
+        admit(&probes[at], patch, (request, plane))?;
         let center = (above(*thetas).to_radians(), phis.to_radians());
         probes[at]
-            .add(center, patch, &request.sampling)
+            .add(center, patch, plane)
             .map_err(|error| MaterialError::Patch { number: row + 1, error })?;
         within(&probes[at], request)?;
         let (angles, flags) = ([*thetai, *thetas, *phis], flags(*thetai, *thetas));
@@ -174,13 +188,19 @@ pub(super) fn of_list(list: &[PatchRow], request: &TableRequest) -> Result<Parts
 }
 
 /// Refuses a patch whose directions would not fit beside those that are there.
-fn admit(probes: &Probes, patch: &Patch, request: &TableRequest) -> Result<(), MaterialError> {
-    let (Patch::Circle(alpha) | Patch::Ring(_, alpha)) = patch else { return Ok(()) };
+fn admit(
+    probes: &Probes,
+    patch: &Patch,
+    (request, plane): (&TableRequest, Option<&PlaneSampling>),
+) -> Result<(), MaterialError> {
+    let (Patch::Circle(alpha) | Patch::Ring(_, alpha), Some(plane)) = (patch, plane) else {
+        return Ok(());
+    };
     let region = Region::Circle {
         center: (0.0, 0.0),
         alpha: alpha.to_radians().clamp(-FRAC_PI_2, FRAC_PI_2),
     };
-    let more = sampling::Layout::estimate(&region, &request.sampling);
+    let more = Layout::estimate(&region, plane);
     if probes.directions() as f64 + more > request.limits.directions {
         return Err(too_many_directions(request));
     }

@@ -5,7 +5,6 @@ use crate::{
     Limits,
     material::Material,
     request::{ColourQuery, GridRequest, Patch, PatchRow},
-    sampling::PlaneSampling,
 };
 
 use scattering::{Basis, Mode};
@@ -25,7 +24,7 @@ fn request(directions: TableDirections) -> TableRequest {
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,
-        sampling: PlaneSampling::default(),
+        sampling: None,
         limits: Limits::default(),
     }
 }

@@ -11,6 +11,8 @@ pub struct Estimate {
     pub matrix: Mueller,
     /// The estimated error of each element, not negative.
     pub error: Mueller,
+    /// ∫ cos θ dΩ by the same subdivision, sr.
+    pub area: f64,
     /// Evaluations of the model.
     pub evaluations: u64,
 }

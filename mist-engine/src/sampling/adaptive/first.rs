@@ -17,6 +17,9 @@ const SPLITS: usize = 6;
 /// Halvings of a slice towards a ray that touches a circle.
 const MOST_SPLITS: usize = 12;
 
+/// Distance from the ends of cells at which they are measured, in halves of a cell.
+const INSET: f64 = 1e-6;
+
 /// Cells towards a peak, at most: 14 halvings both ways need a few hundred.
 const MOST_FIRST: usize = 20_000;
 
@@ -93,7 +96,9 @@ impl Rays {
     fn extent(&self, cell: &CubatureCell) -> (DVec3, f64, f64) {
         let at = |s: f64, u: f64| DVec3::from(self.ray(cell.slice, cell.interval, s).at(u).0);
         let (s, u) = (0.5 * (cell.s.0 + cell.s.1), 0.5 * (cell.u.0 + cell.u.1));
-        let along_p = at(cell.s.0, u).distance(at(cell.s.1, u));
+        // On the ends themselves an interval may have no length.
+        let [first, last] = [cell.s.0, cell.s.1].map(|end| end + INSET * (s - end));
+        let along_p = at(first, u).distance(at(last, u));
         (at(s, u), along_p, at(s, cell.u.0).distance(at(s, cell.u.1)))
     }
 }

@@ -3,13 +3,13 @@
 use glam::DVec3;
 use scattering::{
     Basis, Direction, Incidence, Model, Mueller, Side,
-    lanes::{LaneKernel, SimdLevel, WIDTH, dispatch},
+    lanes::{LaneKernel, Real, SimdLevel, WIDTH, dispatch},
     models::LobeSupport,
 };
 
 use super::estimate::Estimate;
 use crate::{
-    region::{PolarAngles, Region, unit},
+    region::{PolarAngles, unit},
     sampling::{seen_group, sensitivity_rotation::SensitivityRotation},
 };
 
@@ -36,19 +36,19 @@ pub(super) struct Integrand<'a> {
     model: &'a Model,
     incidence: &'a Incidence,
     basis: Basis,
-    turn: SensitivityRotation,
+    /// Nothing if every direction keeps its own s and p.
+    turn: Option<SensitivityRotation>,
     flip: f64,
 }
 
 impl<'a> Integrand<'a> {
-    /// With sensitivities that are given at the centre of `region`.
+    /// With sensitivities that are rotated by `turn`.
     pub(super) fn new(
         model: &'a Model,
         incidence: &'a Incidence,
         basis: Basis,
-        region: &Region,
+        turn: Option<SensitivityRotation>,
     ) -> Self {
-        let turn = SensitivityRotation::towards(region.polarization_center());
         let flip = if model.common().side.to_below() { -1.0 } else { 1.0 };
         Self { model, incidence, basis, turn, flip }
     }
@@ -68,7 +68,7 @@ impl<'a> Integrand<'a> {
         let direction = Direction::new(center.0, center.1);
         let mut out = [Mueller::ZERO];
         self.model.evaluate(self.incidence, &[direction], self.basis, &mut out);
-        Estimate { matrix: out[0] * direction.cos, error: Mueller::ZERO, evaluations: 1 }
+        Estimate { matrix: out[0] * direction.cos, error: Mueller::ZERO, area: 0.0, evaluations: 1 }
     }
 
     /// Directions in which scattered light may be concentrated, the likeliest first: of a mirror,
@@ -95,7 +95,7 @@ impl<'a> Integrand<'a> {
 /// From unit vectors to directions, and the cosines and sines by which sensitivities are turned.
 struct Seeing<'a, const N: usize> {
     at: &'a NodeDirections<N>,
-    turn: &'a SensitivityRotation,
+    turn: &'a Option<SensitivityRotation>,
     directions: &'a mut [Direction; N],
     turns: &'a mut [[f64; N]; 2],
 }
@@ -108,7 +108,10 @@ impl<const N: usize> LaneKernel for Seeing<'_, N> {
         for group in 0..N / WIDTH {
             let v = at.v.each_ref().map(|all| all.as_chunks().0[group]);
             let [x, y, z] = [vectors.load(&v[0]), vectors.load(&v[1]), vectors.load(&v[2])];
-            let [cos, sin] = turn.at([x, y, z]);
+            let [cos, sin] = match turn {
+                Some(turn) => turn.at([x, y, z]),
+                None => [x.splat(1.0), x.splat(0.0)],
+            };
             turns[0].as_chunks_mut().0[group] = vectors.store(cos);
             turns[1].as_chunks_mut().0[group] = vectors.store(sin);
             directions.as_chunks_mut().0[group] = seen_group(vectors, &v);

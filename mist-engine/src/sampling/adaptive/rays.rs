@@ -14,7 +14,7 @@ use super::{
     peaks::Peak,
     slice::{AzimuthSlice, even},
 };
-use crate::region::{Region, RegionError};
+use crate::region::{PolarCell, Region, RegionError};
 
 /// A region around a pole.
 #[derive(Clone, Debug)]
@@ -68,7 +68,22 @@ impl Rays {
         let boundary = RegionBoundary::new(&region.ordered(), supports)?;
         let (across, near) = ((q, pole.cross(q)), center.width);
         let mut rays = Self { pole, across, near, boundary, slices: Vec::new() };
-        rays.slices = rays.cut();
+        rays.slices = rays.cut(None);
+        Ok(rays)
+    }
+
+    /// The cell as seen from the normal, cut by `supports`.
+    pub(super) fn of_cell(cell: &PolarCell, supports: &[LobeSupport]) -> Result<Self, RegionError> {
+        let band = Region::Annulus {
+            outer_center: (0.0, 0.0),
+            outer_alpha: cell.theta.1,
+            inner_center: (0.0, 0.0),
+            inner_alpha: cell.theta.0,
+        };
+        let boundary = RegionBoundary::new(&band, supports)?;
+        let across = (DVec3::X, DVec3::Y);
+        let mut rays = Self { pole: DVec3::Z, across, near: 1.0, boundary, slices: Vec::new() };
+        rays.slices = rays.cut(Some(cell.phi));
         Ok(rays)
     }
 
@@ -102,8 +117,9 @@ impl Rays {
         self.across.0 * cos + self.across.1 * sin
     }
 
-    /// The slices between the azimuths at which the intervals of a ray change.
-    fn cut(&self) -> Vec<AzimuthSlice> {
+    /// The slices between the azimuths at which the intervals of a ray change, within `sector` or all
+    /// around.
+    fn cut(&self, sector: Option<(f64, f64)>) -> Vec<AzimuthSlice> {
         let seen = |v: &DVec3| v.dot(self.across.1).atan2(v.dot(self.across.0)).rem_euclid(TAU);
         let mut ends: Vec<f64> = self.boundary.corners.iter().map(seen).collect();
         let touching =
@@ -111,8 +127,16 @@ impl Rays {
         let touching: Vec<f64> = touching.collect();
         ends.extend(&touching);
         ends.retain(|p| p.is_finite());
+        if let Some((from, to)) = sector {
+            ends.iter_mut().for_each(|p| *p = from + (*p - from).rem_euclid(TAU));
+            ends.retain(|p| *p - from > TINY && to - *p > TINY);
+            ends.extend([from, to]);
+        }
         ends.sort_by(f64::total_cmp);
         ends.dedup_by(|b, a| *b - *a < TINY);
+        if sector.is_some() {
+            return ends.windows(2).flat_map(|pair| even(pair[0], pair[1], &touching)).collect();
+        }
         let first = ends.first().copied().unwrap_or(0.0);
         if ends.is_empty() {
             ends.push(first);

@@ -12,7 +12,6 @@ use mist_engine::{
         table,
     },
     request::{ColourQuery, GridPatch, GridRequest, TableDirections, TableRequest},
-    sampling::PlaneSampling,
 };
 use scattering::{Basis, Mode};
 
@@ -93,7 +92,7 @@ pub fn table_of(
         incident: [1.0, 0.0, 0.0, 0.0],
         stokes: true,
         basis: Basis::Psps,
-        sampling: PlaneSampling::default(),
+        sampling: None,
         limits: Limits::default(),
     };
     let own = Control { cancel: control.cancel.clone(), progress: None };

@@ -49,7 +49,7 @@ use super::{
 use crate::{
     Basis, Direction, Incidence, Model, Mueller, ParameterError, ParameterNode,
     models::{
-        COMMON, CommonParameters,
+        COMMON, CommonParameters, LobeSupport,
         brdf::{self, Brdf},
         diffuse, model,
     },
@@ -229,6 +229,14 @@ fn diffuse_body(
 impl Brdf for LayeredModel {
     fn common(&self) -> &CommonParameters {
         &self.common
+    }
+
+    fn lobe_supports(&self, incidence: &Incidence) -> Vec<LobeSupport> {
+        let LowestSurface::Immersed(model) = &self.bottom else { return Vec::new() };
+        let n = self.coats.last().map_or(1.0, |coat| coat.n);
+        let inside = Incidence::new((incidence.sin / n).asin(), incidence.rotation());
+        let supports = model.lobe_supports(&inside).into_iter();
+        supports.filter_map(|support| support.refracted(n)).collect()
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {

@@ -15,7 +15,6 @@
 
 use std::slice;
 
-use glam::DVec3;
 use num_complex::Complex64;
 
 use crate::{
@@ -100,15 +99,6 @@ impl Transmit {
         let (theta, tau) = self.cross(incidence.sin, incidence.cos);
         (Incidence::new(theta, incidence.rotation()), Some(tau))
     }
-
-    /// The cone outside that contains a cone inside (its rim is no longer a circle); `None` for total
-    /// reflection.
-    fn outside(&self, support: LobeSupport) -> Option<LobeSupport> {
-        let (x, y) = (self.index * support.axis.x, self.index * support.axis.y);
-        let cos = (1.0 - x * x - y * y).sqrt();
-        let half_angle = support.half_angle * self.index * support.axis.z / cos;
-        (half_angle < 1.0).then(|| LobeSupport { axis: DVec3::new(x, y, cos), half_angle })
-    }
 }
 
 impl Brdf for Transmit {
@@ -121,7 +111,7 @@ impl Brdf for Transmit {
         if !self.common.side.to_below() {
             return supports;
         }
-        supports.into_iter().filter_map(|support| self.outside(support)).collect()
+        supports.into_iter().filter_map(|support| support.refracted(self.index)).collect()
     }
 
     fn mueller(&self, incidence: &Incidence, direction: &Direction) -> Mueller {
