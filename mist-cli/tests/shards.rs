@@ -16,7 +16,7 @@ VARIABLES:
   degree = atan(1)/45
   theta = 0  slope = 0.1
   incidentangle = theta*degree  incidentpol = (1,0,0,0)  rotation = 0
-  differential = 4e-5  minsamples = 100
+  integrationmode = 2  differential = 4e-5  minsamples = 100
   $sdf = Gaussian_Slope_Distribution_Function
   #sdf.s = slope
 END

@@ -33,7 +33,7 @@ FLAGS = (
 LONG = """MODEL = Facet_BRDF_Model
 VARIABLES:
   t = 0  incidentangle = t  incidentpol = (1,0,0,0)  rotation = 0
-  differential = 3e-6  minsamples = 10
+  integrationmode = 2  differential = 3e-6  minsamples = 10
 END
 VARY: FOR t FROM 0 TO 1 BY 1e-4 END
 INTEGRALS: A = HEMI END END

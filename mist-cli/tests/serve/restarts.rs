@@ -10,7 +10,7 @@ use crate::service::Service;
 /// A job of some seconds with many steps: what is done is written down five times a second.
 pub(crate) const LONG: &str = "MODEL = Facet_BRDF_Model\nVARIABLES:\n\
     rad = atan(1)/45 t = 0 incidentangle = t*rad incidentpol = (1,0.2,0.1,0) rotation = 0\n\
-    differential = (0.35*rad)^2 minsamples = 100 END\n\
+    integrationmode = 2 differential = (0.35*rad)^2 minsamples = 100 END\n\
     VARY:\nFOR t FROM 0 TO 80 BY 0.1\nEND\nINTEGRALS: R = HEMI END END\nOUTPUTS: 1 R END\n\
     FILES: format = %.17g\\t END\n";
 

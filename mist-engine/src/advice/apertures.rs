@@ -8,7 +8,7 @@ use crate::{
     Job,
     fault::Fault,
     region::{Region, RegionError},
-    sampling::{Layout, LayoutKey},
+    sampling::{Layout, LayoutKey, adaptive::Domain},
     step::{Step, StepIntegral},
 };
 
@@ -40,6 +40,8 @@ struct ApertureSizes {
     /// direction stands for.
     fewest: Option<Few>,
     most: f64,
+    /// True if an adaptive integral had no solid angle.
+    is_empty: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -64,7 +66,10 @@ impl<'j> Apertures<'j> {
         self.steps += 1.0;
         for (at, (integral, seen)) in step.integrals.iter().zip(&mut self.seen).enumerate() {
             // Adaptive integrals are not laid out.
-            let Some((plane, _)) = integral.rule.plane() else { continue };
+            let Some((plane, _)) = integral.rule.plane() else {
+                seen.check(integral).map_err(|error| self.job.region_fault(at, &error))?;
+                continue;
+            };
             let estimate = Layout::estimate(&integral.region, plane);
             self.directions += estimate;
             seen.most = seen.most.max(estimate);
@@ -82,7 +87,9 @@ impl<'j> Apertures<'j> {
             .flat_map(|(at, seen)| {
                 let few = seen.fewest.filter(|few| few.directions < FEW);
                 let few = few.map(|few| self.few(at, few));
-                few.into_iter().chain((seen.most > MANY).then(|| self.many(at, seen.most)))
+                let empty = seen.is_empty.then(|| self.empty(at));
+                let many = (seen.most > MANY).then(|| self.many(at, seen.most));
+                few.into_iter().chain(empty).chain(many)
             })
             .collect();
         let evaluations = self.directions / self.steps.max(1.0) * steps;
@@ -110,6 +117,12 @@ impl<'j> Apertures<'j> {
             found.help("make the aperture larger: its cone has no solid angle")
         };
         found.note(format!("the cone around it has {size:.3e} sr, differential is {each:.3e} sr"))
+    }
+
+    fn empty(&self, at: usize) -> Diagnostic {
+        let name = &self.job.plan.integrals[at].name;
+        let message = format!("{name} has no solid angle: it is 0");
+        Diagnostic::warning("sampling/few", name.span(), message).help("make the aperture larger")
     }
 
     fn many(&self, at: usize, most: f64) -> Diagnostic {
@@ -150,6 +163,18 @@ impl<'j> Apertures<'j> {
 }
 
 impl ApertureSizes {
+    /// Looks for regions that do not exist and for those without a solid angle.
+    fn check(&mut self, integral: &StepIntegral) -> Result<(), RegionError> {
+        let is_area = !matches!(integral.region, Region::Differential { .. });
+        let key = LayoutKey::new(&integral.region, &integral.rule);
+        if !is_area || self.layouts.len() >= LAYOUTS || !self.layouts.insert(key) {
+            return Ok(());
+        }
+        Domain::region(integral.region.clone())?;
+        self.is_empty |= integral.region.projected_solid_angle() == 0.0;
+        Ok(())
+    }
+
     /// Counts the directions of a layout that was not seen before.
     fn count(&mut self, integral: &StepIntegral, estimate: f64) -> Result<(), RegionError> {
         let is_area = !matches!(integral.region, Region::Differential { .. });

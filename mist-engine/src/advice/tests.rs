@@ -147,13 +147,19 @@ fn wavelengths_that_look_like_nanometres_are_told_at_their_literal() {
 #[test]
 fn apertures_far_from_differential_are_told() {
     let few = [("differential = 1e-3", "differential = 1"), ("minsamples = 100", "minsamples = 1")];
-    assert_eq!(told(&few), one("sampling/few", 12, "R"));
-    assert_eq!(told(&[("ALPHA = 10*deg", "ALPHA = 0")]), one("sampling/few", 12, "R"));
-    let fine = told(&[("differential = 1e-3", "differential = 1e-8")]);
+    assert_eq!(told(&few), []);
+    let grid = ("rotation = 0", "rotation = 0 integrationmode = 2");
+    assert_eq!(told(&[grid, few[0], few[1]]), one("sampling/few", 12, "R"));
+    for settings in [&[grid][..], &[]] {
+        let empty = [settings, &[("ALPHA = 10*deg", "ALPHA = 0")]].concat();
+        assert_eq!(told(&empty), one("sampling/few", 12, "R"));
+    }
+    let fine = told(&[grid, ("differential = 1e-3", "differential = 1e-8")]);
     assert_eq!(fine, one("sampling/many", 12, "R"));
-    let refused = told(&[("differential = 1e-3", "differential = 1e-10")]);
+    let refused = told(&[grid, ("differential = 1e-3", "differential = 1e-10")]);
     assert_eq!(refused, one("sampling/too-many", 12, "R"));
     let long = told(&[
+        grid,
         ("differential = 1e-3", "differential = 1e-7"),
         ("VARY: END", "VARY: FOR more FROM 1 TO 20000 BY 1 END"),
     ]);

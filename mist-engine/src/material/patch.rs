@@ -1,7 +1,6 @@
 //! The directions that stand for a patch, with weights that sum to its mean.
 //!
-//! Patches are integrated adaptively, and their means are divided by ∫ cos θ dΩ of the same
-//! subdivision, so that a perfect diffuser has its exact mean. With a [`PlaneSampling`] cones, annuli
+//! Patches are integrated adaptively. With a [`PlaneSampling`] cones, annuli
 //! and polygons are laid out as the grids of programs, and cells and rings of grids are products of
 //! Gauss–Legendre rules in θ and φ with cos θ sin θ in the weights.
 
@@ -223,7 +222,7 @@ impl Probes {
                     if reached > unmet.map_or(ACCURACY.tolerance, |(_, worst)| worst) {
                         unmet = Some((first + at, reached));
                     }
-                    found.matrix * (1.0 / found.area)
+                    found.matrix * (1.0 / self.omegas[first + at])
                 }
                 Err(AdaptiveError::Stopped) => return None,
                 Err(_) => Mueller::ZERO * f64::NAN,

@@ -34,15 +34,11 @@ mod slice;
 
 pub use super::accuracy::Accuracy;
 pub use domain::{Domain, KnownPeaks};
-pub use estimate::Estimate;
+pub use estimate::{Estimate, FLOOR};
 
 use cell::{CubatureCell, MeasuredCell, NODES};
 use integrand::Integrand;
 use rays::Rays;
-
-/// Errors below this are small enough whatever the integral is: without it, integrals that
-/// vanish up to rounding would never be done.
-pub const FLOOR: f64 = 1e-20;
 
 /// The estimated error of what a detector of the sensitivity `pol` sees under `inpol`, from the
 /// errors of the elements.
@@ -235,10 +231,9 @@ impl<'a> Cubature<'a> {
 
     fn total(&self) -> Estimate {
         let mut sum = Estimate { evaluations: self.evaluations, ..Estimate::default() };
-        for MeasuredCell { matrix, error, area, .. } in &self.cells {
+        for MeasuredCell { matrix, error, .. } in &self.cells {
             sum.matrix += *matrix;
             sum.error += *error;
-            sum.area += area;
         }
         sum
     }

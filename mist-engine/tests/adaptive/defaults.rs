@@ -25,7 +25,7 @@ fn model(kind: usize, width: f64) -> String {
         ),
         2 => format!(
             "Facet_BRDF_Model $sdf = Anisotropic_Gaussian_Slope_Distribution_Function\n \
-             #sdf.sx = {slope}\n #sdf.sy = {}\n",
+             #sdf.sigmax = {slope}\n #sdf.sigmay = {}\n",
             0.3 * slope
         ),
         3 => format!("Subsurface_Facet_BRDF_Model {gaussian}"),

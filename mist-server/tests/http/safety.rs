@@ -25,7 +25,10 @@ async fn a_hostile_program_is_refused_and_the_service_lives() {
         ("deep nesting", SIMPLE.replace("rotation = 0", &format!("rotation = {deep}x"))),
         ("many signs", SIMPLE.replace("rotation = 0", &format!("rotation = {minus}x"))),
         ("a huge loop", SIMPLE.replace("VARY: END", loops)),
-        ("a billion directions", SIMPLE.replace("differential = 1", "differential = 1e-12")),
+        (
+            "a billion directions",
+            SIMPLE.replace("differential = 1", "integrationmode = 2 differential = 1e-12"),
+        ),
         ("a list outside", SIMPLE.replace("VARY: END", "VARY:\nLIST /etc/passwd\nEND")),
         ("a table outside", SIMPLE.replace("rotation = 0", "rotation = @/etc/passwd(1)")),
         (

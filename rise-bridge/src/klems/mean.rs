@@ -60,13 +60,14 @@ impl<'a> MeansUnderLight<'a> {
     pub(super) fn xyz(&self, to: &KlemsPatch) -> Result<[f64; 3], ExportError> {
         let start = to.phi - 0.5 * to.width - self.mirror;
         let (theta, phi) = ((to.lower, to.upper), (start, start + to.width));
-        let cell = Domain::Cell(PolarCell { theta, phi, center: None });
+        let cell = PolarCell { theta, phi, center: None };
+        let (domain, omega) = (Domain::Cell(cell), cell.projected_solid_angle());
         let mut spectrum = Vec::with_capacity(self.peaks.len());
         for (at, (model, peaks)) in self.bands.models().iter().zip(&self.peaks).enumerate() {
             let beam = (model, &self.incidence, Basis::Psps);
             let place = || format!("light from {:.3}, {} nm", self.light, self.bands.nm()[at]);
-            let found = adaptive::over(beam, &cell, peaks, &ACCURACY, &|| false);
-            match found.map(|found| (found.matrix[(0, 0)] / found.area, found.relative_error())) {
+            let found = adaptive::over(beam, &domain, peaks, &ACCURACY, &|| false);
+            match found.map(|found| (found.matrix[(0, 0)] / omega, found.relative_error())) {
                 Ok((f, reached)) if f.is_finite() && reached <= LARGEST_ERROR => spectrum.push(f),
                 Ok((f, reached)) if f.is_finite() => {
                     let problem = format!(

@@ -87,13 +87,7 @@ mod tests {
         let zero = Mueller::ZERO;
         cells
             .iter()
-            .map(|cell| MeasuredCell {
-                cell: *cell,
-                matrix: zero,
-                error: zero,
-                area: 0.0,
-                along_p: false,
-            })
+            .map(|cell| MeasuredCell { cell: *cell, matrix: zero, error: zero, along_p: false })
             .collect()
     }
 

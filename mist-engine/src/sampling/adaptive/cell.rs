@@ -25,8 +25,6 @@ pub(super) struct MeasuredCell {
     pub(super) cell: CubatureCell,
     pub(super) matrix: Mueller,
     pub(super) error: Mueller,
-    /// ∫ cos θ dΩ by the same rule.
-    pub(super) area: f64,
     /// True if the error along p is larger than that along t.
     pub(super) along_p: bool,
 }
@@ -65,13 +63,8 @@ impl CubatureCell {
     /// The integral over the cell with its error.
     pub(super) fn measure(self, fan: &Fan, integrand: &Integrand<'_>) -> MeasuredCell {
         let mut values = [Mueller::ZERO; NODES];
-        let nodes = self.nodes(fan);
-        integrand.values(&nodes, &mut values);
-        let mut area = 0.0;
-        for k in 0..NODES {
-            area += nodes.weights[k] * nodes.v[2][k] * WEIGHT[k / SIDE] * WEIGHT[k % SIDE];
-        }
-        judge(self, area, &values)
+        integrand.values(&self.nodes(fan), &mut values);
+        judge(self, &values)
     }
 
     /// The directions of the nodes on their rays, with the solid angle per area of [−1, 1]².
@@ -111,12 +104,12 @@ fn half((from, to): (f64, f64)) -> (f64, f64) {
 }
 
 /// Integral and error from the values at the nodes, p slow and t fast.
-fn judge(cell: CubatureCell, area: f64, values: &[Mueller; NODES]) -> MeasuredCell {
+fn judge(cell: CubatureCell, values: &[Mueller; NODES]) -> MeasuredCell {
     let mut sums = RuleSums::default();
     dispatch(Summing { values, sums: &mut sums });
     let RuleSums { matrix, along_p, along_t } = sums;
     let along = (along_p.largest(), along_t.largest());
-    MeasuredCell { cell, matrix, error: along_p + along_t, area, along_p: along.0 > along.1 }
+    MeasuredCell { cell, matrix, error: along_p + along_t, along_p: along.0 > along.1 }
 }
 
 /// Estimate of the rule from the values of a cell.

@@ -2,7 +2,9 @@
 
 use scattering::Mueller;
 
-use super::FLOOR;
+/// Errors below this are small enough whatever the integral is: without it, integrals that
+/// vanish up to rounding would never be done.
+pub const FLOOR: f64 = 1e-20;
 
 /// A Mueller integral and how far from the truth it may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -11,8 +13,6 @@ pub struct Estimate {
     pub matrix: Mueller,
     /// The estimated error of each element, not negative.
     pub error: Mueller,
-    /// ∫ cos θ dΩ by the same subdivision, sr.
-    pub area: f64,
     /// Evaluations of the model.
     pub evaluations: u64,
 }

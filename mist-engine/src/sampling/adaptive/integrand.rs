@@ -68,7 +68,7 @@ impl<'a> Integrand<'a> {
         let direction = Direction::new(center.0, center.1);
         let mut out = [Mueller::ZERO];
         self.model.evaluate(self.incidence, &[direction], self.basis, &mut out);
-        Estimate { matrix: out[0] * direction.cos, error: Mueller::ZERO, area: 0.0, evaluations: 1 }
+        Estimate { matrix: out[0] * direction.cos, error: Mueller::ZERO, evaluations: 1 }
     }
 
     /// Directions in which scattered light may be concentrated, the likeliest first: of a mirror,

@@ -74,7 +74,8 @@ fn measured(integrand: &Integrand<'_>, at: DVec3) -> Peak {
         let (sin, cos) = (SMALLEST * RATIO.powi((k / AROUND) as i32)).sin_cos();
         let v = at * cos + around[k % AROUND] * sin;
         (places.v[0][k], places.v[1][k], places.v[2][k]) = v.into();
-        places.weights[k] = 1.0;
+        // The BRDF itself: cos θ changes within its own size next to the horizon.
+        places.weights[k] = if v.z > 0.0 { v.z.recip() } else { 1.0 };
     }
     let mut values = [Mueller::ZERO; ROOM];
     integrand.values(&places, &mut values);
