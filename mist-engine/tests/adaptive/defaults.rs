@@ -7,7 +7,9 @@ use proptest::{
     test_runner::{Config, RngAlgorithm, TestRng, TestRunner},
 };
 
-use crate::programs::{numbers, run};
+use scattering::Mode;
+
+use crate::programs::{numbers, run, run_in};
 
 /// A model with a lobe of the width 10^`width` rad, about.
 fn model(kind: usize, width: f64) -> String {
@@ -135,9 +137,15 @@ fn cases(count: usize) -> Vec<Case> {
 
 /// By how many of its errors the default integral is off.
 fn off(case: &Case) -> f64 {
-    let row = |settings: &str| numbers(&run(&program(case, settings)).0, 1);
-    let usual = row("");
-    let best = row("integrationmode = 20  tolerance = 1e-8  maxevaluations = 2e7");
+    let usual = numbers(&run(&program(case, "")).0, 1);
+    // Shadows have kinks, for which the evaluations do not always suffice for 1e-8.
+    let reference = |tolerance: &str| {
+        let accuracy =
+            format!("integrationmode = 20  tolerance = {tolerance}  maxevaluations = 2e7");
+        run_in(Mode::Sound, &program(case, &accuracy)).ok()
+    };
+    let best = ["1e-8", "1e-7"].into_iter().find_map(reference);
+    let best = numbers(&best.expect("an error of 1e-7 is reached").0, 1);
     let off = (usual[0] - best[0]).abs() - best[1];
     if off <= 0.0 { 0.0 } else { off / usual[1] }
 }

@@ -22,7 +22,7 @@ OUTPUTS: 1 total=H 2 R 3 sum=R+H 4 relative=R.error/R END
 FILES: format = %.12e\\t END
 ";
 
-fn run_in(mode: Mode, program: &str) -> Result<(MemorySink, RunSummary), Failure> {
+pub(crate) fn run_in(mode: Mode, program: &str) -> Result<(MemorySink, RunSummary), Failure> {
     let options = Options { mode, ..Options::default() };
     let job =
         compile(program, Arc::new(MemoryFiles::default()), &options).map_err(Failure::Program)?;
