@@ -36,6 +36,12 @@ impl TMatrix {
         Self { l_max, blocks: (0..=l_max).map(block).collect() }
     }
 
+    /// The same without the orders above `m_max`.
+    pub(crate) fn truncated(mut self, m_max: usize) -> Self {
+        self.blocks.truncate(m_max.saturating_add(1));
+        self
+    }
+
     /// The largest m.
     pub fn m_max(&self) -> usize {
         self.blocks.len() - 1

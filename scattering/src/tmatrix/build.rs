@@ -22,15 +22,15 @@ pub(crate) fn read(
     index: Complex64,
     k: f64,
 ) -> Result<TMatrix, ParameterError> {
-    let (needed, m_max) = (terms(k * shape.reach()), m_max(node)?);
+    let m_max = m_max(node)?;
     if node.mode == Mode::Sound {
-        let orders = Orders::read(node, needed)?;
+        let orders = Orders::of_body(node, k * shape.reach())?;
         let compute = |level| converged::at_level(node, shape, index, k, m_max, level);
-        return converged::converged(node, orders, compute, |a, b| {
+        return converged::converged(node, &orders, compute, |a, b| {
             converged::distance(a.blocks.iter().enumerate(), b.blocks.iter().enumerate())
         });
     }
-    let l_max = l_max(node, needed)?;
+    let l_max = l_max(node, terms(k * shape.reach()))?;
     TMatrix::of_revolution(shape, index, k, l_max, m_max.min(l_max)).ok_or_else(|| {
         ParameterError::new("lmax", "too many multipoles for this body: they overflow")
     })

@@ -4,13 +4,17 @@
 //! with different orders and at different nodes: the distance of the two, relative to their size, is
 //! the error that truncation, quadrature and rounding leave together. The orders rise until it is
 //! small; what stays is stated or, above one per cent, refused.
+//!
+//! The order m = 1 costs little and converges no faster than the others. For bodies whose orders m
+//! are expensive it finds the number of orders l, and refuses what is far out of reach, before the
+//! others are computed.
 
 use num_complex::Complex64;
 
 use super::{ComplexMatrix, MOST, TMatrix};
 use crate::{
-    ModelLimit, ParameterError, ParameterNode, ParameterValue, shape::Shape, spec,
-    special::harmonics::Harmonics,
+    ModelLimit, ParameterError, ParameterNode, ParameterValue, scatterer::layered, shape::Shape,
+    spec, special::harmonics::Harmonics,
 };
 
 /// Relative error of amplitudes at which the orders need not rise further.
@@ -22,20 +26,35 @@ const REFUSED: f64 = 1e-2;
 /// Number of times that the orders are raised.
 const ATTEMPTS: usize = 4;
 
+/// Multiple of [`REFUSED`] that the low orders m may differ by before the others are computed.
+const HOPEFUL: f64 = 3.0;
+/// Margin of the error where more orders need not make it smaller.
+const CHANCE: f64 = 3.0;
+/// The largest m by which the number of orders l is found.
+const LOW: usize = 1;
+
 /// One of the two computations: orders up to `l_max`, at many nodes or at fewer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Level {
     /// The largest l.
     pub l_max: usize,
+    /// The largest m.
+    pub m_max: usize,
     /// True for the more accurate one of the two.
     pub is_fine: bool,
 }
 
 /// The number of orders to start with, and whether it is all that may be taken.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Orders {
     start: usize,
     is_fixed: bool,
+    /// True if the low orders m are computed first.
+    low_first: bool,
+    /// The least multiple of the distance of two results that counts as their error.
+    margin: f64,
+    /// The part of a refusal that says which bodies converge.
+    remedy: String,
 }
 
 impl Orders {
@@ -46,9 +65,92 @@ impl Orders {
 
     /// The orders that the parameter `lmax` asks for where the size needs `needed`.
     pub(crate) fn read(node: &ParameterNode, needed: usize) -> Result<Self, ParameterError> {
-        let asked = node.integer("lmax");
-        Ok(Self { start: super::l_max(node, needed)?, is_fixed: asked > 0 })
+        Ok(Self {
+            start: super::l_max(node, needed)?,
+            is_fixed: node.integer("lmax") > 0,
+            low_first: false,
+            margin: 1.0,
+            remedy: "a smaller, rounder or smoother body converges".to_owned(),
+        })
     }
+
+    /// The orders of a body of revolution of the size parameter `x`.
+    pub(crate) fn of_body(node: &ParameterNode, x: f64) -> Result<Self, ParameterError> {
+        let orders = Self::read(node, super::terms(x))?;
+        let remedy = format!("{} (its size parameter is {x:.3})", orders.remedy);
+        Ok(Self { low_first: true, remedy, ..orders })
+    }
+
+    /// The same for a sequence that need not converge, in which two results may agree by chance.
+    pub(crate) fn asymptotic(self, remedy: String) -> Self {
+        Self { remedy, margin: CHANCE, ..self }
+    }
+}
+
+/// Two results and their distance.
+struct Compared<T> {
+    fine: T,
+    coarse: T,
+    error: f64,
+}
+
+/// The results for orders up to `l` and some more.
+fn compare<T>(
+    l: usize,
+    m_max: usize,
+    compute: &impl Fn(Level) -> Option<T>,
+    distance: &impl Fn(&T, &T) -> f64,
+) -> Option<Compared<T>> {
+    let fine = compute(Level { l_max: above(l), m_max, is_fine: true })?;
+    let coarse = compute(Level { l_max: l, m_max, is_fine: false })?;
+    let error = distance(&fine, &coarse);
+    Some(Compared { fine, coarse, error: if error.is_nan() { f64::INFINITY } else { error } })
+}
+
+/// The orders l of the finer one of two results.
+fn above(l: usize) -> usize {
+    (l + step(l)).min(MOST)
+}
+
+/// The best of a sequence of orders.
+struct Found<T> {
+    compared: Compared<T>,
+    l: usize,
+    /// Multiple of the distance that all following orders add up to where convergence is slow.
+    rest: f64,
+}
+
+/// The best that `compute` gives for orders m up to `m_max`.
+fn search<T>(
+    orders: &Orders,
+    m_max: usize,
+    compute: &impl Fn(Level) -> Option<T>,
+    distance: &impl Fn(&T, &T) -> f64,
+) -> Option<Found<T>> {
+    let mut best: Option<Found<T>> = None;
+    let (mut l, mut before) = (orders.start, None::<(usize, f64)>);
+    for _ in 0..ATTEMPTS {
+        crate::interrupt::check();
+        let high = above(l);
+        let Some(compared) = compare(l, m_max, compute, distance) else { break };
+        let error = compared.error;
+        // Where convergence is slow, all that follows is more than one step of it.
+        let rest = before.map_or(1.0, |(from, last)| {
+            let per_step = (error / last).powf((high - l) as f64 / (l - from) as f64);
+            if per_step < 1.0 { (1.0 - per_step).recip() } else { 1.0 }
+        });
+        let smallest = best.as_ref().map_or(f64::INFINITY, |best| best.compared.error);
+        if error < smallest {
+            best = Some(Found { compared, l, rest });
+        }
+        // Beyond the reach of the arithmetic more orders make it worse.
+        if error < AIM || error > 4.0 * smallest || orders.is_fixed || high >= MOST {
+            break;
+        }
+        before = Some((l, error));
+        l = (high + step(high) / 2).min(MOST - step(MOST));
+    }
+    best
 }
 
 /// The best that `compute` gives, by the `distance` of two results relative to their size.
@@ -58,55 +160,33 @@ impl Orders {
 /// If the error stays above one per cent: at the parameter `lmax`.
 pub(crate) fn converged<T>(
     node: &ParameterNode,
-    orders: Orders,
+    orders: &Orders,
     compute: impl Fn(Level) -> Option<T>,
     distance: impl Fn(&T, &T) -> f64,
 ) -> Result<T, ParameterError> {
-    let mut best: Option<(T, f64)> = None;
-    let (mut l, mut before) = (orders.start, None::<(usize, f64)>);
-    for _ in 0..ATTEMPTS {
-        crate::interrupt::check();
-        let high = (l + step(l)).min(MOST);
-        let fine = Level { l_max: high, is_fine: true };
-        let coarse = Level { l_max: l, is_fine: false };
-        let (Some(a), Some(b)) = (compute(fine), compute(coarse)) else { break };
-        let error = distance(&a, &b);
-        let error = if error.is_nan() { f64::INFINITY } else { error };
-        // Where convergence is slow, all that follows is more than one step of it.
-        let rest = before.map_or(1.0, |(from, last)| {
-            let per_step = (error / last).powf((high - l) as f64 / (l - from) as f64);
-            if per_step < 1.0 { (1.0 - per_step).recip() } else { 1.0 }
-        });
-        let smallest = best.as_ref().map_or(f64::INFINITY, |best| best.1);
-        if error < smallest {
-            let result = if orders.is_fixed { b } else { a };
-            best = Some((result, if error < AIM { error } else { error * rest }));
-        }
-        // Beyond the reach of the arithmetic more orders make it worse.
-        if error < AIM || error > 4.0 * smallest || orders.is_fixed || high >= MOST {
-            break;
-        }
-        before = Some((l, error));
-        l = (high + step(high) / 2).min(MOST - step(MOST));
+    let overflow =
+        || ParameterError::new("lmax", "too many multipoles for this body: they overflow");
+    let low = if orders.low_first { LOW } else { usize::MAX };
+    let mut found = search(orders, low, &compute, &distance).ok_or_else(overflow)?;
+    if orders.low_first && found.compared.error <= HOPEFUL * REFUSED {
+        found.compared = compare(found.l, usize::MAX, &compute, &distance).ok_or_else(overflow)?;
     }
-    let Some((result, error)) = best else {
-        return Err(ParameterError::new(
-            "lmax",
-            "too many multipoles for this body: they overflow",
-        ));
-    };
+    let Found { compared: Compared { fine, coarse, error }, l, rest } = found;
+    let error = if error < AIM { error } else { error * rest.max(orders.margin) };
     if error > REFUSED {
-        let remedy = if orders.is_fixed { "; lmax = 0 takes as many as needed" } else { "" };
+        let fixed = if orders.is_fixed { "lmax = 0 takes as many as needed; " } else { "" };
         let problem = format!(
-            "out of reach: with l up to {l} the amplitudes of this body are known to {error:.1e} of \
-             their size only{remedy}; a smaller, rounder or smoother body converges"
+            "out of reach: with l up to {} the amplitudes of this body are known to {error:.1e} of \
+             their size only; {fixed}{}",
+            above(l),
+            orders.remedy
         );
         return Err(ParameterError::new("lmax", problem));
     }
     if error > STATED {
         node.note_limit(ModelLimit::Unconverged { millionths: (error * 1e6).ceil() as u32 });
     }
-    Ok(result)
+    Ok(if orders.is_fixed { coarse } else { fine })
 }
 
 /// By how many orders the two results differ.
@@ -158,8 +238,12 @@ pub(crate) fn at_level(
     m_max: usize,
     level: Level,
 ) -> Option<TMatrix> {
-    let orders = (level.l_max, m_max.min(level.l_max));
+    let orders = (level.l_max, m_max.min(level.m_max).min(level.l_max));
     if let Some(spheroid) = shape.spheroid() {
+        if spheroid.aspect() == 1.0 {
+            let series = layered::coefficients(&[(index, k * spheroid.vertical)], orders.0);
+            return Some(TMatrix::sphere(&series).truncated(orders.1));
+        }
         let nodes = 40.0 + 20.0 * spheroid.aspect().sqrt() + 1.5 * level.l_max as f64;
         let nodes = if level.is_fine { nodes } else { 0.8 * nodes };
         return TMatrix::of_spheroid(spheroid, index, k, orders, nodes as usize);

@@ -80,16 +80,22 @@ fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, Parame
     let relative = index / ground.medium;
     if !node.reproduces(Defect::ImageNodes) {
         let (k, m_max) = (ground.k, tmatrix::m_max(node)?);
-        let orders = Orders::read(node, tmatrix::terms(k * shape.reach()))?;
+        let orders = Orders::of_body(node, k * shape.reach())?;
         if m_max < orders.start() {
             node.reproduces(Defect::AxisymmetricIndex);
         }
         let height = shape.spheroid().map_or(shape.height(), |spheroid| spheroid.vertical);
+        let centre = height + ground.distance();
+        let orders = if shape.reach() > centre {
+            orders.asymptotic(into_face(&shape, centre))
+        } else {
+            orders
+        };
         let particle = |level| {
             let particle = converged::at_level(node, &shape, relative, k, m_max, level)?;
             Some((particle, height))
         };
-        return SupportedParticle::converged(ground, node, orders, particle);
+        return SupportedParticle::converged(ground, node, &orders, particle);
     }
     let particle = tmatrix::read(node, &shape, relative, ground.k)?;
     let (l_max, incomplete) = (particle.l_max, particle.m_max() < particle.l_max);
@@ -98,4 +104,15 @@ fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, Parame
         return Ok(supported.mispairing());
     }
     Ok(supported)
+}
+
+/// The remedy for a body whose surrounding sphere reaches into the face.
+fn into_face(shape: &Shape, centre: f64) -> String {
+    let reach = shape.reach();
+    format!(
+        "its multipoles meet those of its image, which need not converge where the sphere of \
+         {reach:.4} um around its origin reaches into the face {centre:.4} um below: a delta that is \
+         larger by {:.4} um, or a rounder body, converges",
+        reach - centre
+    )
 }

@@ -110,7 +110,7 @@ fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, Parame
     if !node.reproduces(Defect::ImageNodes) {
         let orders = Orders::read(node, needed)?;
         let particle = |level: Level| Some((sphere(level.l_max), radius));
-        return SupportedParticle::converged(ground, node, orders, particle);
+        return SupportedParticle::converged(ground, node, &orders, particle);
     }
     let l_max = l_max(node, needed)?;
     SupportedParticle::as_the_library(ground, &sphere(l_max), radius, needed)

@@ -92,6 +92,11 @@ impl SubstrateFace {
         self
     }
 
+    /// Distance of a particle from the face, µm.
+    pub(super) fn distance(&self) -> f64 {
+        self.delta
+    }
+
     /// Reads what all such models share; `buried` puts the particle into the substrate.
     pub(super) fn read(node: &ParameterNode, buried: bool) -> Result<Self, ParameterError> {
         let common = CommonParameters::read(node)?;
@@ -181,7 +186,7 @@ impl SupportedParticle {
     pub(super) fn converged(
         ground: SubstrateFace,
         node: &ParameterNode,
-        orders: Orders,
+        orders: &Orders,
         particle: impl Fn(Level) -> Option<(TMatrix, f64)>,
     ) -> Result<Self, ParameterError> {
         let compute = |level: Level| {
