@@ -231,7 +231,7 @@ impl<'a> Evaluator<'a> {
                 return Err(self.failure(block, piece.wanted_by, |_| fault));
             }
             if let Ok(built) = piece.cell.get() {
-                self.met.extend(&built.met);
+                self.met.extend(built.met.lock().expect("no model panics while it notes").iter());
             }
         }
         if self.control.is_cancelled() { Err(Failure::Cancelled) } else { Ok(spent) }

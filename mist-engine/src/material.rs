@@ -29,7 +29,7 @@ use crate::{
     request::RequestError,
 };
 use mist_format::suggestion::did_you_mean;
-use scattering::{Mode, Model, Notice, ParameterError, models, spec::SharedNotices};
+use scattering::{Mode, Model, ParameterError, models, notice::keep_largest, spec::SharedNotices};
 
 pub use crate::request::Material;
 
@@ -191,6 +191,8 @@ pub struct PreparedMaterial {
     mode: Mode,
     /// Warnings of the models that were built; clones share them.
     warnings: Arc<Mutex<BTreeSet<Warning>>>,
+    /// Notices of the models that were built and evaluated; clones share them.
+    met: SharedNotices,
 }
 
 impl PreparedMaterial {
@@ -213,7 +215,7 @@ impl PreparedMaterial {
         if self.mode == Mode::Compat {
             parameters.forget_other_wavelengths();
         }
-        Self { parameters, mode: self.mode, warnings: self.warnings.clone() }
+        Self { parameters, mode: self.mode, warnings: self.warnings.clone(), met: self.met.clone() }
     }
 
     /// The models at all `wavelengths` (nm), built in parallel.
@@ -226,10 +228,7 @@ impl PreparedMaterial {
     pub fn models(&self, wavelengths: &[f64]) -> Result<Vec<Model>, MaterialError> {
         let all: Vec<Self> = wavelengths.iter().map(|nm| self.at(nm / 1000.0)).collect();
         self.check_tables(&all)?;
-        let built: Result<Vec<_>, MaterialError> = all.par_iter().map(Self::model).collect();
-        let (models, notices): (Vec<Model>, Vec<Vec<Notice>>) = built?.into_iter().unzip();
-        self.warn(notices.iter().flatten().filter_map(Warning::of_notice));
-        Ok(models)
+        all.par_iter().map(|material| Ok(material.model()?.0)).collect()
     }
 
     /// The model at its own wavelength, as [`PreparedMaterial::models`].
@@ -237,17 +236,18 @@ impl PreparedMaterial {
     /// # Errors
     ///
     /// As [`PreparedMaterial::models`].
-    pub fn own_model(&self) -> Result<(Model, Vec<Notice>), MaterialError> {
+    pub fn own_model(&self) -> Result<(Model, SharedNotices), MaterialError> {
         self.check_tables(std::slice::from_ref(self))?;
-        let (model, notices) = self.model()?;
-        self.warn(notices.iter().filter_map(Warning::of_notice));
-        Ok((model, notices))
+        self.model()
     }
 
-    /// Warnings of the models that were built so far.
+    /// Warnings of the models that were built and evaluated so far.
     pub fn warnings(&self) -> Vec<Warning> {
-        let warnings = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
-        warnings.iter().cloned().collect()
+        let mut met = self.met.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        keep_largest(&mut met);
+        let mut warnings = self.warnings.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        warnings.extend(met.iter().filter_map(Warning::of_notice));
+        warnings.into_iter().collect()
     }
 
     /// The same material with warnings of its own.
@@ -257,7 +257,7 @@ impl PreparedMaterial {
     }
 
     fn new(parameters: ModelParameters, mode: Mode) -> Self {
-        Self { parameters, mode, warnings: Arc::default() }
+        Self { parameters, mode, warnings: Arc::default(), met: SharedNotices::default() }
     }
 
     fn warn(&self, found: impl Iterator<Item = Warning>) {
@@ -283,17 +283,15 @@ impl PreparedMaterial {
         self.mode
     }
 
-    /// The model, and what is to be told of it: defects of NIST's library that a sound one steps
+    /// The model, and the notices of its build and of its evaluations: defects of NIST's library that a sound one steps
     /// around, limits that its parameters pass.
     ///
     /// # Errors
     ///
     /// For values that the model cannot take.
-    pub fn model(&self) -> Result<(Model, Vec<Notice>), MaterialError> {
-        let met = SharedNotices::default();
-        let model = models::build(&self.parameters.node(self.mode, &met))?;
-        let met = met.lock().expect("no build panics").iter().copied().collect();
-        Ok((model, met))
+    pub fn model(&self) -> Result<(Model, SharedNotices), MaterialError> {
+        let model = models::build(&self.parameters.node(self.mode, &self.met))?;
+        Ok((model, self.met.clone()))
     }
 }
 

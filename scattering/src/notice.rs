@@ -29,6 +29,11 @@ pub enum ModelLimit {
         /// The relative error of the amplitudes, 10⁻⁶.
         millionths: u32,
     },
+    /// Efficiencies of a grating change by this part between half the harmonics and all of them.
+    HarmonicsUnconverged {
+        /// The largest relative change, 10⁻⁶.
+        millionths: u32,
+    },
     /// The azimuthal modes of a paint end before they are small.
     ModesEnded,
     /// A tabulated reflectance is above 1.
@@ -54,6 +59,10 @@ impl ModelLimit {
             Self::Unconverged { .. } => {
                 "the multipoles of the particle have not converged: a smaller, rounder or smoother \
                  body does"
+            }
+            Self::HarmonicsUnconverged { .. } => {
+                "the efficiencies of the grating have not converged: raise order (order1 and order2 \
+                 of crossed gratings)"
             }
             Self::Unrealizable => {
                 "scattered light has more polarization than intensity at some angles: lower plmax, \
@@ -94,6 +103,13 @@ impl fmt::Display for Notice {
             Self::Limit(ModelLimit::Unconverged { millionths }) => write!(
                 f,
                 "the multipoles of the particle have converged to {:.0e} of their amplitudes only",
+                f64::from(*millionths) * 1e-6
+            ),
+            Self::Limit(ModelLimit::HarmonicsUnconverged { millionths }) => write!(
+                f,
+                "efficiencies of the grating are known to {:.0e} of their value only, by which they \
+                 change between half the harmonics and all of them: raise order (order1 and order2 \
+                 of crossed gratings)",
                 f64::from(*millionths) * 1e-6
             ),
             Self::Limit(limit) => f.write_str(limit.describe()),

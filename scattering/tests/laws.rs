@@ -1,5 +1,8 @@
 //! Every model obeys the laws that its class claims, with its defaults and a few variants of them.
 
+#[path = "laws/long.rs"]
+mod long;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use num_complex::Complex64;

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use scattering::{Mode, Model, Notice, ParameterError, spec::SharedNotices};
+use scattering::{Mode, Model, ParameterError, spec::SharedNotices};
 
 use super::cache::{FastMap, WeightedCache};
 use crate::parameters::ModelParameters;
@@ -24,10 +24,10 @@ pub(super) struct ModelCell {
     built: OnceLock<Result<Built, ParameterError>>,
 }
 
-/// A model with the defects that its sound build avoided.
+/// A model with the notices of its build and of the evaluations until now.
 pub(super) struct Built {
     pub(super) model: Model,
-    pub(super) met: Vec<Notice>,
+    pub(super) met: SharedNotices,
 }
 
 impl ModelCell {
@@ -37,7 +37,6 @@ impl ModelCell {
             .get_or_init(|| {
                 let met = SharedNotices::default();
                 let model = scattering::models::build(&self.parameters.node(self.mode, &met))?;
-                let met = met.lock().expect("no build panics").iter().copied().collect();
                 Ok(Built { model, met })
             })
             .as_ref()

@@ -79,7 +79,9 @@ pub fn answer(
     };
     let mueller: Vec<_> = geometries.iter().map(|angles| row(at(angles))).collect();
     warnings.extend(not_finite(&mueller));
+    // Models note what they meet in evaluations, too.
     warnings.extend(prepared.warnings());
+    let met = met.lock().expect("no model panics while it notes");
     Ok(EvaluationResponse {
         mueller,
         defects: met.iter().filter_map(defect).collect(),

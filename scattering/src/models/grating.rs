@@ -3,6 +3,7 @@
 use super::brdf::Brdf;
 use crate::spec::Spec;
 
+mod convergence;
 pub mod cross;
 pub mod line;
 mod orders;

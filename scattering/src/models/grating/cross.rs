@@ -10,7 +10,10 @@
 
 use std::f64::consts::TAU;
 
-use super::orders::{OrderConeModel, bounded, half_angle, media, order};
+use super::{
+    convergence::{ConvergenceCheck, other_order},
+    orders::{OrderConeModel, bounded, half_angle, media, order},
+};
 use crate::{
     Brdf,
     cross_grating::{self, CrossGrating, CrossPattern, CrossProfile, HarmonicTruncation},
@@ -39,20 +42,34 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = CommonParameters::read(node)?;
-        let structure = structure(node, &common)?;
-        Ok(Box::new(OrderConeModel::new(common, structure, half_angle(node)?)))
+        let (order1, order2) = (order(node, "order1")?, order(node, "order2")?);
+        let profile = profile(node, &common)?;
+        let structure = structure(&profile, &common, HarmonicTruncation { order1, order2 })?;
+        let check = ConvergenceCheck::new(node, || {
+            let others =
+                HarmonicTruncation { order1: other_order(order1), order2: other_order(order2) };
+            self::structure(&profile, &common, others).ok()
+        });
+        Ok(Box::new(OrderConeModel::new(common, structure, check, half_angle(node)?)))
     },
 };
 
-fn structure(
+fn profile(
     node: &ParameterNode,
     common: &CommonParameters,
-) -> Result<PeriodicStructure, ParameterError> {
-    let (order1, order2) = (order(node, "order1")?, order(node, "order2")?);
+) -> Result<CrossProfile, ParameterError> {
     let grating = node.member::<dyn CrossGrating>("grating")?;
     let profile = grating.at(common.lambda).map_err(|error| error.inside("grating"))?;
     media(common, profile.above, profile.below)?;
-    let kept = needed(&profile, HarmonicTruncation { order1, order2 });
+    Ok(profile)
+}
+
+fn structure(
+    profile: &CrossProfile,
+    common: &CommonParameters,
+    wanted: HarmonicTruncation,
+) -> Result<PeriodicStructure, ParameterError> {
+    let kept = needed(profile, wanted);
     let size = |order: usize| order.checked_mul(2).and_then(|n| n.checked_add(1));
     bounded("order1", size(kept.order1))?;
     bounded(

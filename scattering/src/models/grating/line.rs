@@ -10,10 +10,13 @@
 
 use std::f64::consts::TAU;
 
-use super::orders::{OrderConeModel, bounded, half_angle, media, order};
+use super::{
+    convergence::{ConvergenceCheck, other_order},
+    orders::{OrderConeModel, bounded, half_angle, media, order},
+};
 use crate::{
     Brdf,
-    grating::{self, Grating},
+    grating::{self, Grating, LineProfile},
     models::{COMMON, CommonParameters},
     rcw::PeriodicStructure,
     spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
@@ -38,24 +41,29 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
     },
     build: |node| {
         let common = CommonParameters::read(node)?;
-        let structure = structure(node, &common)?;
-        Ok(Box::new(OrderConeModel::new(common, structure, half_angle(node)?)))
+        let order = order(node, "order")?;
+        bounded("order", order.checked_mul(2))?;
+        let profile = profile(node, &common)?;
+        let structure = structure(&profile, &common, order);
+        let check = ConvergenceCheck::new(node, || {
+            Some(self::structure(&profile, &common, other_order(order)))
+        });
+        Ok(Box::new(OrderConeModel::new(common, structure, check, half_angle(node)?)))
     },
 };
 
-fn structure(
-    node: &ParameterNode,
-    common: &CommonParameters,
-) -> Result<PeriodicStructure, ParameterError> {
-    let order = order(node, "order")?;
-    bounded("order", order.checked_mul(2))?;
+fn profile(node: &ParameterNode, common: &CommonParameters) -> Result<LineProfile, ParameterError> {
     let grating = node.member::<dyn Grating>("grating")?;
     let profile = grating.at(common.lambda).map_err(|error| error.inside("grating"))?;
     media(common, profile.above, profile.below)?;
+    Ok(profile)
+}
+
+fn structure(profile: &LineProfile, common: &CommonParameters, order: usize) -> PeriodicStructure {
     let k0 = TAU / common.lambda;
     let slices = profile.slices.iter().filter(|slice| slice.thickness > 0.0);
     let last = order as isize;
-    Ok(PeriodicStructure {
+    PeriodicStructure {
         layers: slices.map(|s| s.pattern.operators(order, k0 * s.thickness)).collect(),
         incident: 1.0,
         behind: profile.below,
@@ -63,5 +71,5 @@ fn structure(
             .map(|m| (m as f64 * common.lambda / profile.period, 0.0))
             .collect(),
         zeroth: order,
-    })
+    }
 }

@@ -11,6 +11,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use glam::DVec3;
 use num_complex::Complex64;
 
+use super::convergence::ConvergenceCheck;
 use crate::{
     Direction, Incidence, Mueller, ParameterError, ParameterNode, Side,
     grating::positive,
@@ -63,10 +64,10 @@ pub(super) fn media(
 
 /// A diffracted order as light in a cone.
 #[derive(Clone, Copy, Debug)]
-struct OrderCone {
-    axis: DVec3,
+pub(super) struct OrderCone {
+    pub(super) axis: DVec3,
     /// Efficiency over πα².
-    mueller: Mueller,
+    pub(super) mueller: Mueller,
 }
 
 /// A grating whose orders are cones.
@@ -74,6 +75,8 @@ pub(super) struct OrderConeModel {
     common: CommonParameters,
     /// The structure as the incident light meets it.
     structure: PeriodicStructure,
+    /// The same with other harmonics, in sound runs.
+    check: Option<ConvergenceCheck>,
     alpha: f64,
     cos_alpha: f64,
     recent: Mutex<Vec<CachedOrders>>,
@@ -92,19 +95,22 @@ struct CachedOrders {
 }
 
 impl OrderConeModel {
-    /// `structure` as lit from above; it is turned over for light from the substrate.
-    pub(super) fn new(common: CommonParameters, structure: PeriodicStructure, alpha: f64) -> Self {
-        let structure = if common.side.from_below() {
-            PeriodicStructure {
-                layers: structure.layers.into_iter().rev().collect(),
-                incident: structure.behind.re,
-                behind: structure.incident.into(),
-                ..structure
-            }
-        } else {
-            structure
+    /// `structure` and that of `check` as lit from above; they are turned over for light from the substrate.
+    pub(super) fn new(
+        common: CommonParameters,
+        structure: PeriodicStructure,
+        check: Option<ConvergenceCheck>,
+        alpha: f64,
+    ) -> Self {
+        let lit = |structure: PeriodicStructure| {
+            if common.side.from_below() { turned_over(structure) } else { structure }
         };
-        Self { common, structure, alpha, cos_alpha: alpha.cos(), recent: Mutex::default() }
+        let structure = lit(structure);
+        let check = check.map(|mut check| {
+            check.structure = lit(check.structure);
+            check
+        });
+        Self { common, structure, check, alpha, cos_alpha: alpha.cos(), recent: Mutex::default() }
     }
 
     fn orders(&self, incidence: &Incidence) -> SharedOrders {
@@ -123,14 +129,22 @@ impl OrderConeModel {
     }
 
     fn cones(&self, incidence: &Incidence) -> Vec<OrderCone> {
-        let lateral = incidence.to_sample(self.structure.incident * incidence.sin, 0.0);
+        let cones = self.cones_of(&self.structure, incidence);
+        if let Some(check) = &self.check {
+            check.compare(&cones, &self.cones_of(&check.structure, incidence));
+        }
+        cones
+    }
+
+    fn cones_of(&self, structure: &PeriodicStructure, incidence: &Incidence) -> Vec<OrderCone> {
+        let lateral = incidence.to_sample(structure.incident * incidence.sin, 0.0);
         let normal_s = incidence.to_sample(0.0, 1.0);
         let wave = IncidentWave { lateral, cos: incidence.cos, normal_s };
         let side = self.common.side;
         let behind = matches!(side, Side::DownDown | Side::UpUp);
         let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);
         let scale = 1.0 / (std::f64::consts::PI * self.alpha * self.alpha);
-        self.structure
+        structure
             .diffract(&wave, behind)
             .iter()
             .map(|order| {
@@ -152,6 +166,16 @@ impl OrderConeModel {
             sum += cone.mueller * (1.0 / direction.cos);
         }
         sum
+    }
+}
+
+/// The structure as light from the substrate meets it.
+fn turned_over(structure: PeriodicStructure) -> PeriodicStructure {
+    PeriodicStructure {
+        layers: structure.layers.into_iter().rev().collect(),
+        incident: structure.behind.re,
+        behind: structure.incident.into(),
+        ..structure
     }
 }
 
