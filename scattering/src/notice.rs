@@ -1,6 +1,6 @@
 //! Notices of a build besides its result: defects that it avoided, limits that it exceeded.
 
-use std::fmt;
+use std::{collections::BTreeSet, fmt};
 
 use crate::Defect;
 
@@ -38,6 +38,19 @@ pub enum ModelLimit {
     ModesEnded,
     /// A tabulated reflectance is above 1.
     ReflectanceAboveOne,
+}
+
+/// Keeps the largest error of each kind among the limits that state one.
+pub fn keep_largest(notices: &mut BTreeSet<Notice>) {
+    // Limits of one kind follow each other with rising errors.
+    let all: Vec<Notice> = notices.iter().copied().collect();
+    for pair in all.windows(2) {
+        if let [Notice::Limit(a), Notice::Limit(b)] = pair
+            && std::mem::discriminant(a) == std::mem::discriminant(b)
+        {
+            notices.remove(&pair[0]);
+        }
+    }
 }
 
 impl ModelLimit {
@@ -114,5 +127,20 @@ impl fmt::Display for Notice {
             ),
             Self::Limit(limit) => f.write_str(limit.describe()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_several_errors_the_largest_is_kept() {
+        let limit = |millionths| Notice::from(ModelLimit::HarmonicsUnconverged { millionths });
+        let others = [ModelLimit::ModesEnded.into(), Defect::Nudge.into()];
+        let mut notices: BTreeSet<Notice> = [limit(2000), limit(50_000), limit(5000)].into();
+        notices.extend(others);
+        keep_largest(&mut notices);
+        assert_eq!(notices, [limit(50_000), others[0], others[1]].into());
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use scattering::{Basis, Geometry, Mode, Mueller, Notice};
+use scattering::{Basis, Geometry, Mode, Mueller, Notice, notice::keep_largest};
 use serde::{Serialize, Serializer};
 
 use super::MaterialError;
@@ -81,7 +81,8 @@ pub fn answer(
     warnings.extend(not_finite(&mueller));
     // Models note what they meet in evaluations, too.
     warnings.extend(prepared.warnings());
-    let met = met.lock().expect("no model panics while it notes");
+    let mut met = met.lock().expect("no model panics while it notes").clone();
+    keep_largest(&mut met);
     Ok(EvaluationResponse {
         mueller,
         defects: met.iter().filter_map(defect).collect(),

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use scattering::{Defect, Mode};
+use scattering::{Defect, Mode, notice::keep_largest};
 
 use super::{
     parallel::{ParallelReplay, StepBatch},
@@ -97,6 +97,7 @@ impl<'a> Runner<'a> {
         };
         let steps = self.part.as_ref().map_or(self.summary.steps, |part| part.end - part.start);
         self.summary.warnings.extend(self.outputs.not_finite.warnings(self.job, steps));
+        keep_largest(&mut self.summary.met);
         self.summary.seconds = started.elapsed().as_secs_f64();
         self.summary.evaluations = self.meter.evaluations;
         self.summary.warnings.extend(self.shared.warnings());

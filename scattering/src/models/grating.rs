@@ -3,6 +3,7 @@
 use super::brdf::Brdf;
 use crate::spec::Spec;
 
+mod cone;
 mod convergence;
 pub mod cross;
 pub mod line;

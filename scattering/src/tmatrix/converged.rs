@@ -29,7 +29,7 @@ const ATTEMPTS: usize = 4;
 /// Multiple of [`REFUSED`] that the low orders m may differ by before the others are computed.
 const HOPEFUL: f64 = 3.0;
 /// Margin of the error where more orders need not make it smaller.
-const CHANCE: f64 = 3.0;
+const CHANCE: f64 = 2.0;
 /// The largest m by which the number of orders l is found.
 const LOW: usize = 1;
 

@@ -8,7 +8,7 @@
 //!
 //! L. Li, J. Opt. Soc. Am. A 13, 1870 (1996), on the rates of convergence.
 
-use super::orders::OrderCone;
+use super::cone::OrderCone;
 use crate::{Mode, ModelLimit, ParameterNode, rcw::PeriodicStructure, spec::SharedNotices};
 
 /// Change of an efficiency from which on a result says so.

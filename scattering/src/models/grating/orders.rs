@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use glam::DVec3;
 use num_complex::Complex64;
 
-use super::convergence::ConvergenceCheck;
+use super::{cone::OrderCone, convergence::ConvergenceCheck};
 use crate::{
     Direction, Incidence, Mueller, ParameterError, ParameterNode, Side,
     grating::positive,
@@ -60,14 +60,6 @@ pub(super) fn media(
         return Err(ParameterError::new("grating.medium_i", problem));
     }
     Ok(())
-}
-
-/// A diffracted order as light in a cone.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OrderCone {
-    pub(super) axis: DVec3,
-    /// Efficiency over πα².
-    pub(super) mueller: Mueller,
 }
 
 /// A grating whose orders are cones.
