@@ -1,9 +1,13 @@
 //! A program as a function of some of its variables.
 //!
 //! The program is compiled once. [`Job::with_values`] gives entries of VARIABLES other values, from
-//! memory; everything else, apertures and loops included, stays what the program says.
+//! memory; everything else, apertures and loops included, stays what the program says. If these values
+//! are parameters of the model alone, the loops are replayed once for all runs.
 
-use std::{io, sync::Arc};
+use std::{
+    io,
+    sync::{Arc, OnceLock},
+};
 
 use mist_format::{Diagnostic, program::VariableKind, suggestion::did_you_mean};
 
@@ -11,6 +15,7 @@ use crate::{
     Control, Failure, Files, Job, Options, OutputStream, Sink, TableLine,
     colour::ColourTable,
     compile::{compile, initial_values},
+    run::ReusableSteps,
 };
 
 /// A variable of a job that is one number and that no loop changes.
@@ -41,6 +46,8 @@ pub struct ProgramFunction {
     start: Vec<f64>,
     titles: [Vec<String>; 2],
     headers: Vec<String>,
+    /// The steps of the first run, if the variables change nothing but parameters of the model.
+    steps: OnceLock<Option<ReusableSteps>>,
 }
 
 /// One run of a program.
@@ -125,7 +132,7 @@ impl ProgramFunction {
         let titles = job.columns().map(|titles| titles.into_iter().map(str::to_owned).collect());
         let headers = job.program().files.headers();
         let headers = headers.map(|header| header.as_str().to_owned()).collect();
-        Ok(Self { job, variables, names, start, titles, headers })
+        Ok(Self { job, variables, names, start, titles, headers, steps: OnceLock::new() })
     }
 
     /// Warnings of its text: [`Job::slips`].
@@ -179,7 +186,12 @@ impl ProgramFunction {
     ) -> Result<FunctionValues, Failure> {
         let job = self.job.with_values(&self.variables, values).map_err(Failure::Program)?;
         let once = Control { cancel: control.cancel.clone(), progress: None };
-        let colour = job.run(&mut ran, &once)?.colour;
+        let entries = || self.variables.iter().map(|variable| variable.entry).collect::<Vec<_>>();
+        let summary = match self.steps.get_or_init(|| ReusableSteps::of(&job, &entries(), &once)) {
+            Some(steps) => job.run_again(steps, &mut ran, &once)?,
+            None => job.run(&mut ran, &once)?,
+        };
+        let colour = summary.colour;
         Ok(FunctionValues { colour, ..ran })
     }
 }

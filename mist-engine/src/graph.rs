@@ -13,6 +13,7 @@
 //! ([`Independence`]).
 
 mod independence;
+mod parameters_only;
 
 use std::collections::BTreeSet;
 

@@ -9,6 +9,7 @@ use crate::{
     DataFiles, Limits,
     fault::{Fault, fault},
     graph::DependencyGraph,
+    parameters::SetError,
     plan::{ApertureParameter, ColourSection, LoopPlan, Plan},
     region::RegionError,
 };
@@ -123,6 +124,13 @@ impl Job {
             }
             None => Box::new(fault.help(format!("set it in VARIABLES: `#{path} = …`"))),
         }
+    }
+
+    /// The fault of a parameter that cannot be set to the value of the entry `at`.
+    pub(crate) fn set_fault(&self, at: usize, error: &SetError) -> Fault {
+        let variable = &self.plan.program.variables[self.plan.entries[at].variable];
+        let place = if error.is_about_the_name() { &variable.name } else { &variable.value };
+        Box::new(error.diagnostic(place.span()))
     }
 
     /// The fault of an integral whose region cannot be sampled, where the program says so.

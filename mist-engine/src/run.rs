@@ -2,11 +2,13 @@
 
 mod parallel;
 mod reader;
+mod reusable;
 mod runner;
 mod summary;
 
 use std::ops::Range;
 
+pub(crate) use reusable::ReusableSteps;
 use runner::Runner;
 pub use summary::RunSummary;
 
@@ -43,6 +45,31 @@ impl Job {
         control: &Control,
         journal: &mut dyn Journal,
     ) -> Result<RunSummary, Failure> {
+        self.run_by(|runner| runner.steps(), sink, control, journal)
+    }
+
+    /// [`Job::run`] with the steps of an earlier run.
+    ///
+    /// # Errors
+    ///
+    /// As [`Job::run`].
+    pub(crate) fn run_again(
+        &self,
+        steps: &ReusableSteps,
+        sink: &mut dyn Sink,
+        control: &Control,
+    ) -> Result<RunSummary, Failure> {
+        self.run_by(|runner| runner.reuse(steps), sink, control, &mut NoJournal)
+    }
+
+    /// [`Job::run_on`]; `evaluate` evaluates and writes the steps.
+    fn run_by(
+        &self,
+        evaluate: impl FnOnce(&mut Runner<'_>) -> Result<(), Failure>,
+        sink: &mut dyn Sink,
+        control: &Control,
+        journal: &mut dyn Journal,
+    ) -> Result<RunSummary, Failure> {
         for stream in [OutputStream::Listing, OutputStream::Results, OutputStream::Samples] {
             let is_made = stream != OutputStream::Samples || self.samples_name().is_some();
             if is_made && sink.wants(stream) {
@@ -52,7 +79,7 @@ impl Job {
         let mut runner = Runner::new(self, sink, control, journal);
         let colour = self.plan.colour.as_ref();
         runner.fold = colour.map(|section| Fold::new(section, self.initial_incident()));
-        runner.steps()?;
+        evaluate(&mut runner)?;
         if runner.sink.wants(OutputStream::Listing) {
             let tail = listing::tail(runner.summary.seconds);
             runner.sink.write(OutputStream::Listing, &tail)?;

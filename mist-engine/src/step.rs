@@ -18,6 +18,7 @@ use crate::{
 };
 
 /// One combination of loop values, ready to be evaluated.
+#[derive(Clone)]
 pub struct Step {
     /// Number of the step, from 0.
     pub index: u64,

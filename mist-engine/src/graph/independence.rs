@@ -28,7 +28,8 @@ impl Independence {
         if !reads_forward(plan) {
             return None;
         }
-        let (entries, slots) = changed(plan);
+        let written = plan.loops.iter().flat_map(LoopPlan::entries).collect();
+        let (entries, slots) = reached(plan, &written);
         let are_fixed = plan.loops.iter().all(|each| match each {
             LoopPlan::For(each) => {
                 let mut read = each.bounds().into_iter().flat_map(|id| plan.slots_of(id));
@@ -66,9 +67,9 @@ fn reads_forward(plan: &Plan) -> bool {
     })
 }
 
-/// The entries that loops change, by themselves or through others, and their slots.
-fn changed(plan: &Plan) -> (Vec<usize>, BTreeSet<u32>) {
-    let written: BTreeSet<usize> = plan.loops.iter().flat_map(LoopPlan::entries).collect();
+/// The entries that change with the entries `written`, by themselves or through others, and their
+/// slots.
+pub(super) fn reached(plan: &Plan, written: &BTreeSet<usize>) -> (Vec<usize>, BTreeSet<u32>) {
     let (mut entries, mut slots) = (Vec::new(), BTreeSet::new());
     for (at, entry) in plan.entries.iter().enumerate() {
         let mut read = entry.expr.iter().flat_map(Expr::slots);
@@ -95,7 +96,10 @@ fn reads_nothing(plan: &ListPlan, mode: Mode) -> bool {
 
 /// True if `parameter` is set once per step, behind the objects that it belongs to, and nothing
 /// inside of it is set.
-fn is_last(parameter: (usize, &ParameterPath), sent: &[(usize, &ParameterPath)]) -> bool {
+pub(super) fn is_last(
+    parameter: (usize, &ParameterPath),
+    sent: &[(usize, &ParameterPath)],
+) -> bool {
     let (at, path) = parameter;
     sent.iter().filter(|(other, _)| *other != at).all(|(other, other_path)| {
         let replaces = other_path.as_str() == path.as_str() || other_path.is_inside(path);

@@ -87,11 +87,9 @@ impl Replay<'_> {
             SentInput::Value(value) => ParameterInput::Numbers(value.as_slice()),
         };
         let (mode, previous) = (job.options.mode, self.previous.as_ref());
-        self.parameters.set(path, new, &job.library, mode, previous).map_err(|error| {
-            let variable = &job.plan.program.variables[entry.variable];
-            let place = if error.is_about_the_name() { &variable.name } else { &variable.value };
-            Box::new(error.diagnostic(place.span()))
-        })?;
+        self.parameters
+            .set(path, new, &job.library, mode, previous)
+            .map_err(|error| job.set_fault(at, &error))?;
         for inside in job.graph.inside(at) {
             self.sent[*inside] = None;
             self.values.mark(*inside);

@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use crate::{Control, Failure, Job, fault::at_step, replay::Replay, sampling::Layout, step::Step};
 
+/// Steps that are replayed before they are evaluated together.
+pub(super) const BLOCK_STEPS: usize = 256;
+
 /// Evaluations after which a block is closed, so that progress is seen and a cancellation takes effect.
 pub(super) const BLOCK_EVALUATIONS: f64 = 2e6;
 

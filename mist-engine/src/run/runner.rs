@@ -9,7 +9,8 @@ use scattering::{Defect, Mode, notice::keep_largest};
 
 use super::{
     parallel::{ParallelReplay, StepBatch},
-    reader::{StepReader, price},
+    reader::{BLOCK_STEPS, StepReader, price},
+    reusable::ReusableSteps,
     summary::RunSummary,
 };
 use crate::{
@@ -25,9 +26,6 @@ use crate::{
     replay::Replay,
     step::{Evaluated, Step},
 };
-
-/// Steps that are replayed before they are evaluated together.
-const BLOCK_STEPS: usize = 256;
 
 /// A block of a part should take about this long.
 const SHORT: Duration = Duration::from_millis(250);
@@ -95,13 +93,34 @@ impl<'a> Runner<'a> {
         } else {
             self.run_sequential(first, reader)?
         };
+        self.end(started);
+        Ok(())
+    }
+
+    /// All blocks of the steps of an earlier run.
+    pub(super) fn reuse(&mut self, steps: &ReusableSteps) -> Result<(), Failure> {
+        let started = Instant::now();
+        let shows = self.sink.wants_loops() || self.sink.wants(OutputStream::Results);
+        for block in steps.blocks_for(self.job, shows)? {
+            let block_started = Instant::now();
+            let mut block: Vec<Step> = block.collect();
+            self.summary.steps += block.len() as u64;
+            let fraction = block.last().map_or(1.0, |last| self.fraction(last));
+            self.evaluate(&mut block, None)?;
+            self.end_block(fraction, block_started)?;
+        }
+        self.end(started);
+        Ok(())
+    }
+
+    /// Completes the summary of a run that began at `started`.
+    fn end(&mut self, started: Instant) {
         let steps = self.part.as_ref().map_or(self.summary.steps, |part| part.end - part.start);
         self.summary.warnings.extend(self.outputs.not_finite.warnings(self.job, steps));
         keep_largest(&mut self.summary.met);
         self.summary.seconds = started.elapsed().as_secs_f64();
         self.summary.evaluations = self.meter.evaluations;
         self.summary.warnings.extend(self.shared.warnings());
-        Ok(())
     }
 
     /// All blocks of steps that stand alone: while some are evaluated the next ones are replayed;
