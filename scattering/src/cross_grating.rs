@@ -24,7 +24,7 @@ pub use family::{CrossGrating, CrossGratingMedia, CrossProfile, FAMILY, MEDIA};
 pub use grid::PixelGrid;
 pub use lattice::Lattice;
 pub(crate) use lattice::lean;
-pub use pattern::{CrossPattern, CrossSlice, HarmonicTruncation};
+pub use pattern::{CrossPattern, CrossSlice, HarmonicTruncation, ObliqueRule};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn CrossGrating>] = &[

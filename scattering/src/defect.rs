@@ -68,6 +68,9 @@ defects! {
     /// The triangular pyramid's spectral density is 0 around the lines f_x = ±√3 f_y and, for small
     /// pyramids, nearly everywhere.
     PyramidLines = "B30", "the spectrum of triangular pyramids vanishes on lines and for small pyramids";
+    /// The rectangular pyramid's spectral density takes the limit of the lines f_x l_x = ±f_y l_y
+    /// wherever a product of its frequencies is small, for small pyramids nearly everywhere.
+    PyramidLimits = "B30", "the spectrum of small rectangular pyramids is the limit of another direction";
     /// Kubelka–Munk overflows to NaN for opaque layers.
     KubelkaOverflow = "B7", "an opaque Kubelka-Munk layer gives nan";
     // Noted by the code that reads the text.
@@ -79,6 +82,8 @@ defects! {
     TinyLoss = "B13", "a loss of 1e-10 is added to light from the substrate";
     /// Particle models nudge angles near the specular, retro and normal directions.
     Nudge = "B14", "angles near specular, retro and normal directions are moved by 2.5e-5 rad";
+    /// Particles on a face lose digits of light that arrives through the substrate near the normal.
+    HalfAngle = "B29", "light through the substrate near the normal is rounded to 1e-4";
     /// A graded film of one tabulated and one constant material is tabulated from λ = 0.
     GradedFilmGrid = "B17", "a graded film of a table and a constant is tabulated too coarsely";
     /// `Diffuse_Subsurface` recycles light by a 0.2° rectangle sum.
@@ -86,8 +91,22 @@ defects! {
     // Noted by the integrator.
     /// Cones and the hemisphere are polygons that leave out directions at the horizon.
     PolygonHorizon = "B19", "cones and the hemisphere are polygons that leave out directions";
-    /// Axisymmetric particles with mmax < lmax pair harmonics wrongly.
+    /// Axisymmetric particles with mmax < lmax pair harmonics wrongly, in another way (B28) where
+    /// the light leaves into the substrate.
     AxisymmetricIndex = "B20", "harmonics above mmax are paired wrongly";
+    /// Bodies of revolution on or in a substrate are refused with mmax = 1 ("Matrix has no inverse").
+    SingleOrder = "-", "bodies of revolution on a face have no answer with mmax = 1";
+    /// `CrossRCW` on oblique lattices takes another factorization for one of the two oblique
+    /// components of the permittivity, so that results change when the lattice is turned.
+    CrossedOblique = "B21", "an oblique crossed grating has a wrong off-diagonal permittivity";
+    /// `CrossRCW` takes the inverse of the permittivity for the normal waves of homogeneous layers.
+    CrossedHomogeneous = "B22", "waves in a homogeneous layer of a crossed grating have the inverse permittivity";
+    /// `CrossRCW` mirrors line profiles.
+    CrossedMirror = "B23", "an unsymmetric line profile of a crossed grating is mirrored";
+    /// `Sinusoidal_Volume_Grating` sums the series of 1/ε over 20 powers of the contrast.
+    VolumeSeries = "B24", "the series of the inverse permittivity of a volume grating ends too early";
+    /// `RCW` at exactly normal incidence takes s along the lines, whatever the rotation.
+    LineNormalBasis = "B25", "at exactly normal incidence polarization is that of the turned grating";
     /// Bodies of revolution in free space forget the azimuth of the incident light.
     IncidentAzimuth = "-", "a body of revolution that is turned sees its light from the wrong azimuth";
     /// The Gaussian phase function is normalized by a truncated series.
@@ -118,7 +137,12 @@ impl Defect {
     pub fn is_noticeable(self) -> bool {
         !matches!(
             self,
-            Self::FacetRetro | Self::NormalBasis | Self::TinyLoss | Self::SlopeConstants
+            Self::FacetRetro
+                | Self::HalfAngle
+                | Self::LineNormalBasis
+                | Self::NormalBasis
+                | Self::TinyLoss
+                | Self::SlopeConstants
         )
     }
 }

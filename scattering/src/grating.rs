@@ -18,7 +18,7 @@ pub mod triangular;
 
 pub use family::{COMMON, FAMILY, Grating, GratingCommon, LineProfile, LineSlice};
 pub(crate) use family::{finite, levels, not_negative, positive};
-pub use pattern::{GratingMaterial, LinePattern};
+pub use pattern::{CosineReciprocal, GratingMaterial, LinePattern};
 
 /// All of them, in the order they are listed to users.
 pub const ALL: &[&Spec<dyn Grating>] = &[

@@ -14,6 +14,7 @@ mod blocks;
 mod build;
 pub(crate) mod converged;
 pub mod ebcm;
+pub(crate) mod mispairing;
 mod parameters;
 pub mod spheroid;
 pub mod waves;

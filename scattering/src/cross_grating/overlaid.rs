@@ -70,7 +70,7 @@ impl CrossGrating for OverlaidCrossGrating {
         self.media.ends_with(lambda, "bottom.medium_t", bottom.below)?;
         let by = (self.overlay.0 / lattice.d1, self.overlay.1 / lattice.d2);
         let between = LinePattern::uniform(GratingMaterial::from_index(top.below), lattice.d1);
-        let between = CrossSlice::new(self.separation, CrossPattern::Along1(between));
+        let between = CrossSlice::gap(self.separation, CrossPattern::Along1(between));
         let slices = top
             .slices
             .into_iter()

@@ -71,7 +71,7 @@ impl CrossGrating for Overlaid1D {
         same("bottom.medium_i", bottom.above, top.below)?;
         self.media.ends_with(lambda, "bottom.medium_t", bottom.below)?;
         let between = LinePattern::uniform(GratingMaterial::from_index(top.below), bottom.period);
-        let between = CrossSlice::new(self.separation, CrossPattern::Along2(between));
+        let between = CrossSlice::gap(self.separation, CrossPattern::Along2(between));
         let lower = bottom
             .slices
             .into_iter()

@@ -11,6 +11,13 @@
 //! E equals A or B, and for a cell with edges along both axes they replace the coupling of the
 //! oblique components by A + B − E.
 //!
+//! NIST's library takes R, the inverse of the series of 1/c along both axes, for the components
+//! that mix both axes, and for lines along axis 2 (axis 1) A (E) and E (B) in its place for the
+//! two mixed components ([`ObliqueRule::Library`]). With P and Q for both,
+//!
+//! $$ \epsilon_{xx} = A + s^2 (B - Q), \quad \epsilon_{xy} = sc\,(B - Q), \quad
+//! \epsilon_{yx} = \tfrac{s}{c} (c^2 B + s^2 Q - P), \quad \epsilon_{yy} = c^2 B + s^2 Q $$
+//!
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
 use std::f64::consts::TAU;
@@ -37,13 +44,29 @@ pub struct CrossSlice {
     pub pattern: CrossPattern,
     /// Shift along both axes, as fractions of the periods.
     pub shift: (f64, f64),
+    /// True for the distance between two gratings.
+    pub is_gap: bool,
 }
 
 impl CrossSlice {
     /// A slice that is not shifted.
     pub fn new(thickness: f64, pattern: CrossPattern) -> Self {
-        Self { thickness, pattern, shift: (0.0, 0.0) }
+        Self { thickness, pattern, shift: (0.0, 0.0), is_gap: false }
     }
+
+    /// A homogeneous slice between two gratings.
+    pub fn gap(thickness: f64, pattern: CrossPattern) -> Self {
+        Self { is_gap: true, ..Self::new(thickness, pattern) }
+    }
+}
+
+/// Rule for the components of a permittivity that mix the axes of an oblique lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObliqueRule {
+    /// That of the turned Cartesian tensor.
+    Invariant,
+    /// That of NIST's library ([`Defect::CrossedOblique`](crate::Defect::CrossedOblique)).
+    Library,
 }
 
 /// The material over one cell.
@@ -85,11 +108,39 @@ struct TensorFactors {
     b: ComplexMatrix,
     plain: ComplexMatrix,
     normal_inverse: ComplexMatrix,
+    /// P and Q.
+    library: Option<[ComplexMatrix; 2]>,
+}
+
+impl CrossPattern {
+    /// True if it is a line profile that differs from its mirror image.
+    pub fn is_unsymmetric_line(&self) -> bool {
+        match self {
+            Self::Along1(line) | Self::Along2(line) => !line.is_symmetric(),
+            Self::Grid(_) => false,
+        }
+    }
+
+    /// The same with line profiles mirrored ([`Defect::CrossedMirror`](crate::Defect::CrossedMirror)).
+    #[must_use]
+    pub fn with_mirrored_lines(&self) -> Self {
+        match self {
+            Self::Along1(line) => Self::Along1(line.mirrored()),
+            Self::Along2(line) => Self::Along2(line.mirrored()),
+            Self::Grid(_) => self.clone(),
+        }
+    }
 }
 
 impl CrossSlice {
     /// Effect of the slice of `depth` (in 1/k₀) on the harmonics, axis 2 tilted by `zeta`.
-    pub fn operators(&self, kept: HarmonicTruncation, zeta: f64, depth: f64) -> LayerOperators {
+    pub fn operators(
+        &self,
+        kept: HarmonicTruncation,
+        (zeta, rule): (f64, ObliqueRule),
+        depth: f64,
+    ) -> LayerOperators {
+        let by_library = zeta != 0.0 && rule == ObliqueRule::Library;
         let (epsilon, mu) = match &self.pattern {
             CrossPattern::Along1(pattern) => {
                 let line = pattern.operators(kept.order1, depth);
@@ -102,11 +153,19 @@ impl CrossSlice {
                 (along(&line.epsilon, spread, true), along(&line.mu, spread, true))
             }
             CrossPattern::Grid(grid) => {
-                (grid.factors(kept, |m| m.epsilon), grid.factors(kept, |m| m.mu))
+                let factors =
+                    |of: fn(&GratingMaterial) -> [Complex64; 3]| grid.factors(kept, by_library, of);
+                (factors(|m| m.epsilon), factors(|m| m.mu))
             }
         };
+        let tensor = |factors: TensorFactors| match factors.library {
+            Some(mixed) if by_library => {
+                library_tensor(factors.a, factors.b, mixed, factors.normal_inverse, zeta)
+            }
+            library => TensorFactors { library, ..factors }.tensor(zeta),
+        };
         let mut operators =
-            LayerOperators { depth, epsilon: epsilon.tensor(zeta), mu: mu.tensor(zeta) };
+            LayerOperators { depth, epsilon: tensor(epsilon), mu: tensor(mu), waves: None };
         if self.shift != (0.0, 0.0) {
             self.shift(&mut operators.epsilon, kept);
             self.shift(&mut operators.mu, kept);
@@ -129,7 +188,7 @@ impl CrossSlice {
             })
         };
         tensor.xx = turn(&tensor.xx);
-        tensor.xy = tensor.xy.as_ref().map(turn);
+        tensor.xy = tensor.xy.as_ref().map(|xy| xy.each_ref().map(turn));
         tensor.yy = turn(&tensor.yy);
         tensor.zz_inverse = turn(&tensor.zz_inverse);
     }
@@ -144,7 +203,8 @@ fn along(
     let (across, lengthwise) = (spread(&tensor.xx), spread(&tensor.yy));
     let plain = lengthwise.clone();
     let (a, b) = if second { (lengthwise, across) } else { (across, lengthwise) };
-    TensorFactors { a, b, plain, normal_inverse: spread(&tensor.zz_inverse) }
+    let library = Some([a.clone(), b.clone()]);
+    TensorFactors { a, b, plain, normal_inverse: spread(&tensor.zz_inverse), library }
 }
 
 /// m ⊗ 1: harmonics of axis 2 keep to themselves.
@@ -165,7 +225,7 @@ fn spread_2(m: &ComplexMatrix, n1: usize) -> ComplexMatrix {
 
 impl TensorFactors {
     fn tensor(self, zeta: f64) -> MaterialTensor {
-        let Self { a, b, plain, normal_inverse } = self;
+        let Self { a, b, plain, normal_inverse, .. } = self;
         if zeta == 0.0 {
             return MaterialTensor { xx: a, xy: None, yy: b, zz_inverse: normal_inverse };
         }
@@ -174,10 +234,30 @@ impl TensorFactors {
         let difference = &plain - &a;
         MaterialTensor {
             xx: scaled(&a, c * c) + scaled(&plain, s * s),
-            xy: Some(scaled(&difference, s * c)),
+            xy: Some([scaled(&difference, s * c), scaled(&difference, s * c)]),
             yy: b - scaled(&difference, s * s),
             zz_inverse: normal_inverse,
         }
+    }
+}
+
+/// The tensor of NIST's library from A, B, (P, Q) and the normal part.
+fn library_tensor(
+    a: ComplexMatrix,
+    b: ComplexMatrix,
+    [p, q]: [ComplexMatrix; 2],
+    normal_inverse: ComplexMatrix,
+    zeta: f64,
+) -> MaterialTensor {
+    let (s, c) = zeta.sin_cos();
+    let scaled = |m: &ComplexMatrix, x: f64| m * Scale(Complex64::from(x));
+    let difference = &b - &q;
+    let yy = scaled(&b, c * c) + scaled(&q, s * s);
+    MaterialTensor {
+        xx: a + scaled(&difference, s * s),
+        xy: Some([scaled(&difference, s * c), scaled(&(&yy - &p), s / c)]),
+        yy,
+        zz_inverse: normal_inverse,
     }
 }
 
@@ -185,6 +265,7 @@ impl PixelGrid {
     fn factors(
         &self,
         kept: HarmonicTruncation,
+        by_library: bool,
         of: impl Fn(&GratingMaterial) -> [Complex64; 3],
     ) -> TensorFactors {
         let [n1, n2] = kept.sizes();
@@ -196,6 +277,7 @@ impl PixelGrid {
                 b: one.clone(),
                 plain: one.clone(),
                 normal_inverse: one,
+                library: None,
             };
         }
         let axis = |k: usize| -> Vec<Complex64> { values.iter().map(|v| v[k]).collect() };
@@ -214,13 +296,14 @@ impl PixelGrid {
             n1,
             n2,
         );
-        let toeplitz = |k: usize| -> ComplexMatrix {
-            let series = rows.series(&axis(k), 2 * kept.order1);
+        let toeplitz = |values: &[Complex64]| -> ComplexMatrix {
+            let series = rows.series(values, 2 * kept.order1);
             assemble(n1, n2, &rows.where_, |look, i, i2| series[look].at(i as isize - i2 as isize))
         };
-        let normal = toeplitz(2);
-        let plain = if axis(0) == axis(2) { normal.clone() } else { toeplitz(0) };
-        TensorFactors { a, b, plain, normal_inverse: inverse(&normal) }
+        let normal = toeplitz(&axis(2));
+        let plain = if axis(0) == axis(2) { normal.clone() } else { toeplitz(&axis(0)) };
+        let library = by_library.then(|| [0, 1].map(|k| inverse(&toeplitz(&inverses(k)))));
+        TensorFactors { a, b, plain, normal_inverse: inverse(&normal), library }
     }
 }
 

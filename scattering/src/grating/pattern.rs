@@ -45,7 +45,18 @@ pub enum LinePattern {
         phase: f64,
         /// Period, µm.
         period: f64,
+        /// Series of 1/ε.
+        reciprocal: CosineReciprocal,
     },
+}
+
+/// Series of the inverse of a cosine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CosineReciprocal {
+    /// In closed form.
+    Exact,
+    /// Powers 0…19 of the contrast ([`Defect::VolumeSeries`](crate::Defect::VolumeSeries)).
+    TwentyPowers,
 }
 
 impl LinePattern {
@@ -84,12 +95,48 @@ impl LinePattern {
                 materials: materials.clone(),
             },
             Self::Bands { .. } => self.clone(),
-            Self::Cosine { mean, swing, phase, period } => Self::Cosine {
+            Self::Cosine { mean, swing, phase, period, reciprocal } => Self::Cosine {
                 mean: *mean,
                 swing: *swing,
                 phase: phase - TAU * by / period,
                 period: *period,
+                reciprocal: *reciprocal,
             },
+        }
+    }
+
+    /// The same pattern with −x for x.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        match self {
+            Self::Bands { edges, materials } => Self::Bands {
+                edges: edges.iter().rev().map(|x| -x).collect(),
+                materials: materials.iter().rev().copied().collect(),
+            },
+            Self::Cosine { mean, swing, phase, period, reciprocal } => Self::Cosine {
+                mean: *mean,
+                swing: *swing,
+                phase: -phase,
+                period: *period,
+                reciprocal: *reciprocal,
+            },
+        }
+    }
+
+    /// True if the pattern is equal to its mirror image up to rounding errors.
+    pub fn is_symmetric(&self) -> bool {
+        match self {
+            Self::Bands { materials, .. } => {
+                let isotropic = |of: fn(&GratingMaterial) -> [Complex64; 3]| {
+                    (0..3).all(|axis| {
+                        let series = self.bands(4, |m| of(m)[axis]);
+                        let scale: f64 = materials.iter().map(|m| of(m)[axis].norm()).sum();
+                        (1..=4).all(|m| (series.at(m) - series.at(-m)).norm() < 1e-13 * scale)
+                    })
+                };
+                isotropic(|m| m.epsilon) && isotropic(|m| m.mu)
+            }
+            Self::Cosine { swing, phase, .. } => swing.norm() == 0.0 || phase.sin().abs() < 1e-13,
         }
     }
 
@@ -99,6 +146,7 @@ impl LinePattern {
             depth,
             epsilon: self.tensor(order, |m| m.epsilon),
             mu: self.tensor(order, |m| m.mu),
+            waves: None,
         }
     }
 
@@ -122,12 +170,16 @@ impl LinePattern {
                 };
                 ([series(1, 1), series(2, 1)], series(0, -1))
             }
-            Self::Cosine { mean, swing, phase, .. } => {
+            Self::Cosine { mean, swing, phase, reciprocal, .. } => {
                 if of(&GratingMaterial::from_index(*mean)) == [Complex64::ONE; 3] {
                     return MaterialTensor::vacuum(n);
                 }
                 let series = cosine(*mean, *swing, *phase, 2 * order).matrix(n);
-                let reciprocal = inverse_cosine(*mean, *swing, *phase, 2 * order).matrix(n);
+                let inverse = match reciprocal {
+                    CosineReciprocal::Exact => inverse_cosine,
+                    CosineReciprocal::TwentyPowers => powers_of_cosine,
+                };
+                let reciprocal = inverse(*mean, *swing, *phase, 2 * order).matrix(n);
                 ([series.clone(), series], reciprocal)
             }
         };
@@ -184,6 +236,23 @@ fn inverse_cosine(mean: Complex64, swing: Complex64, phase: f64, most: usize) ->
     )
 }
 
+/// The same as Σ_j (−b cos θ)^j/a^{j+1}, j < 20.
+fn powers_of_cosine(mean: Complex64, swing: Complex64, phase: f64, most: usize) -> FourierSeries {
+    let most = most as isize;
+    let coefficient = |m: isize| {
+        let size = m.unsigned_abs();
+        let (mut sum, ratio) = (Complex64::ZERO, -0.5 * swing / mean);
+        for j in (size..20).step_by(2) {
+            // cos^j θ has the coefficient C(j, (j − |m|)/2)/2^j.
+            let binomial: f64 =
+                (1..=(j - size) / 2).map(|k| (j + 1 - k) as f64 / k as f64).product();
+            sum += ratio.powi(j as i32) * binomial;
+        }
+        sum / mean * Complex64::cis(phase * m as f64)
+    };
+    FourierSeries((-most..=most).map(coefficient).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,6 +266,15 @@ mod tests {
                 (-60..=60).map(|m| series.at(m) * Complex64::cis(x * m as f64)).sum();
             // |q|^60 is below the rounding of 121 terms.
             assert!((sum - 1.0 / (a + b * (x + 0.4).cos())).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn powers_of_a_small_contrast_are_the_closed_form() {
+        let (a, b) = (Complex64::new(2.4, 0.3), Complex64::new(0.1, -0.05));
+        let (exact, powers) = (inverse_cosine(a, b, 0.4, 6), powers_of_cosine(a, b, 0.4, 6));
+        for m in -6..=6 {
+            assert!((exact.at(m) - powers.at(m)).norm() < 1e-16, "{m}");
         }
     }
 

@@ -5,14 +5,18 @@
 //!
 //! H is the depth of a level's middle, τ (`tilt`) the tilt of the fringes.
 //!
+//! NIST's library expands 1/ε in twenty powers of the contrast ([`Defect::VolumeSeries`]).
+//!
 //! H. Kogelnik, Bell Syst. Tech. J. 48, 2909 (1969).
 
 use std::f64::consts::TAU;
 
 use super::{
-    COMMON, Grating, GratingCommon, LinePattern, LineProfile, LineSlice, levels, not_negative,
+    COMMON, CosineReciprocal, Grating, GratingCommon, LinePattern, LineProfile, LineSlice, levels,
+    not_negative,
 };
 use crate::{
+    Defect,
     optics::RefractiveIndex,
     spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
 };
@@ -48,6 +52,8 @@ pub struct SinusoidalVolume {
     thickness: f64,
     slope: f64,
     levels: usize,
+    /// Asked whether to end the series of 1/ε early, which matters at large contrasts.
+    node: ParameterNode,
 }
 
 impl SinusoidalVolume {
@@ -63,6 +69,7 @@ impl SinusoidalVolume {
             thickness: not_negative(node, "thick")?,
             slope: tilt.to_radians().tan(),
             levels: levels(node, "nlevels", 1)?,
+            node: node.clone(),
         })
     }
 }
@@ -72,13 +79,22 @@ impl Grating for SinusoidalVolume {
         let (low, high) = (self.minimum.at(lambda).powi(2), self.maximum.at(lambda).powi(2));
         let thickness = self.thickness / self.levels as f64;
         let period = self.common.period;
+        let (mean, swing) = (0.5 * (high + low), 0.5 * (high - low));
+        // Below this contrast the powers that NIST's library leaves out are less than 10⁻¹⁰.
+        let is_large = swing.norm() > 0.3 * mean.norm();
+        let reciprocal = if is_large && self.node.reproduces(Defect::VolumeSeries) {
+            CosineReciprocal::TwentyPowers
+        } else {
+            CosineReciprocal::Exact
+        };
         let slices = (0..self.levels).map(|level| {
             let depth = (level as f64 + 0.5) * thickness;
             let pattern = LinePattern::Cosine {
-                mean: 0.5 * (high + low),
-                swing: 0.5 * (high - low),
+                mean,
+                swing,
                 phase: TAU * depth * self.slope / period,
                 period,
+                reciprocal,
             };
             LineSlice { thickness, pattern }
         });

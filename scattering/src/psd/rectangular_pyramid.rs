@@ -5,12 +5,15 @@
 //!
 //! l_x, l_y are the sides, h is the height (or depth), D the number per area. The integral over
 //! each face is evaluated as a divided difference, without the singular lines of the closed form.
+//! NIST's library takes the limit of the lines |X| = |Y|, X = f_x l_x and Y = f_y l_y, wherever its
+//! denominator π³|XY(X² − Y²)| is below 10⁻⁶ ([`Defect::PyramidLimits`]).
 //!
 //! C. de Boor, *Divided differences*, Surveys in Approximation Theory 1, 46 (2005).
 
 use std::f64::consts::PI;
 
 use crate::{
+    Defect,
     psd::{Psd, strength, triangle},
     spec::{Class, Laws, Parameter, Spec},
 };
@@ -35,7 +38,11 @@ pub const SPEC: Spec<dyn Psd> = Spec {
         let sides = (node.number("lengthx"), node.number("lengthy"));
         let faces = 0.5 * sides.0 * sides.1 * node.number("height");
         let peak = strength(node, "density")? * faces.powi(2);
-        Ok(Box::new(RectangularPyramid { sides, peak }))
+        Ok(Box::new(RectangularPyramid {
+            sides,
+            peak,
+            takes_limits: node.reproduces(Defect::PyramidLimits),
+        }))
     },
 };
 
@@ -44,11 +51,25 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 pub struct RectangularPyramid {
     sides: (f64, f64),
     peak: f64,
+    takes_limits: bool,
+}
+
+/// Size of a factor or of the denominator below which NIST's library leaves its closed form.
+const NEAR_LINE: f64 = 1e-6;
+
+/// True if NIST's library takes the limit of |x| = |y|, both frequencies times π and the sides.
+fn is_limit(x: f64, y: f64) -> bool {
+    let denominator = x * y * (x * x - y * y) / PI;
+    denominator.abs() < NEAR_LINE && [x, y].iter().all(|factor| factor.abs() >= PI * NEAR_LINE)
 }
 
 impl Psd for RectangularPyramid {
     fn density(&self, fx: f64, fy: f64) -> f64 {
         let (x, y) = (PI * fx * self.sides.0, PI * fy * self.sides.1);
+        if self.takes_limits && is_limit(x, y) {
+            let limit = (2.0 * y - (2.0 * y).sin()) / (2.0 * y * y * y);
+            return self.peak * limit * limit;
+        }
         // Opposite faces are complex conjugates.
         let right = triangle::tapered(0.0, [x - y, x + y]);
         let back = triangle::tapered(0.0, [x + y, y - x]);
@@ -61,6 +82,17 @@ mod tests {
     use std::f64::consts::PI;
 
     use crate::{Mode, psd::tests::build};
+
+    #[test]
+    fn small_pyramids_have_the_limit_of_the_diagonal_in_compat_only() {
+        let small = [("lengthx", 0.02), ("lengthy", 0.02)];
+        let name = "Rectangular_Pyramid_PSD_Function";
+        let (sound, compat) = (build(name, Mode::Sound, &small), build(name, Mode::Compat, &small));
+        let diagonal = sound.density(0.9, 0.9);
+        assert!((compat.density(1.3, 0.9) / diagonal - 1.0).abs() < 1e-9);
+        assert!((sound.density(1.3, 0.9) / diagonal - 1.0).abs() > 1e-4);
+        assert!((compat.density(0.0, 0.9) / sound.density(0.0, 0.9) - 1.0).abs() < 1e-14);
+    }
 
     #[test]
     fn the_closed_form_holds_away_from_its_singular_lines() {

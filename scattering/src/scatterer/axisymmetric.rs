@@ -5,7 +5,8 @@
 //!
 //! The amplitudes depend on the difference of the azimuths of both beams about the axis. NIST's
 //! library takes the azimuth of the scattered beam alone ([`Defect::IncidentAzimuth`]): right only
-//! for light that travels in the half plane of azimuth 0.
+//! for light that travels in the half plane of azimuth 0. It pairs harmonics above m_max wrongly
+//! ([`Defect::AxisymmetricIndex`]).
 //!
 //! P. C. Waterman, Phys. Rev. D 3, 825 (1971).
 
@@ -22,7 +23,7 @@ use crate::{
     spec::{Class, Laws, ParameterError, Spec},
     special::harmonics::Harmonics,
     tmatrix::{
-        self, BODY, MULTIPOLES, TMatrix,
+        self, BODY, MULTIPOLES, TMatrix, mispairing,
         waves::{self, MirroredWave, Multipole, OutgoingMultipoles},
     },
 };
@@ -48,6 +49,8 @@ pub struct AxisymmetricScatterer {
     harmonics: Harmonics,
     /// The incident light counts as if it travelled at azimuth 0.
     forgets_azimuth: bool,
+    /// Harmonics above m_max are paired wrongly.
+    mispairs: bool,
 }
 
 impl AxisymmetricScatterer {
@@ -58,7 +61,9 @@ impl AxisymmetricScatterer {
         let particle = tmatrix::read(node, &shape, index, around.wave_number())?;
         let harmonics = Harmonics::new(particle.l_max, particle.m_max());
         let forgets_azimuth = node.reproduces(Defect::IncidentAzimuth);
-        Ok(Self { around, particle, harmonics, forgets_azimuth })
+        let incomplete = particle.m_max() < particle.l_max;
+        let mispairs = incomplete && node.reproduces(Defect::AxisymmetricIndex);
+        Ok(Self { around, particle, harmonics, forgets_azimuth, mispairs })
     }
 }
 
@@ -81,12 +86,20 @@ impl Scatterer for AxisymmetricScatterer {
         let (incoming, outgoing) = (AxisDirection::new(k_in), AxisDirection::new(k_out));
         let regular =
             waves::regular(&self.harmonics, &MirroredWave::free(incoming.cos, incoming.sin));
-        let scattered = OutgoingMultipoles::symmetric(self.particle.answer(&regular).into_iter());
+        let scattered = self.particle.answer(&regular);
+        let scattered = if self.mispairs {
+            mispairing::outside(&scattered, &self.harmonics)
+        } else {
+            OutgoingMultipoles::symmetric(scattered.into_iter())
+        };
         let from = if self.forgets_azimuth { 0.0 } else { incoming.azimuth };
         let turn = outgoing.azimuth - from;
-        let azimuth = (turn.cos(), turn.sin());
+        // The library counts the azimuth from x towards y, which its pairing is not blind to.
+        let side = if self.mispairs { -1.0 } else { 1.0 };
+        let azimuth = (turn.cos(), side * turn.sin());
         let beam = MirroredWave::free(outgoing.cos, outgoing.sin);
         let j = scattered.amplitude(&self.harmonics, &beam, azimuth);
+        let j = if self.mispairs { j.flipped() } else { j };
         outgoing.frame().to(frame_out) * j * frame_in.to(&incoming.frame())
     }
 }

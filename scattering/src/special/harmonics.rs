@@ -100,6 +100,12 @@ impl Harmonics {
         m.max(1)
     }
 
+    /// Position of (m, l) in the order of [`Harmonics::visit`].
+    pub fn place(&self, m: usize, l: usize) -> usize {
+        let before: usize = (0..m).map(|m| self.l_max + 1 - Self::l_min(m)).sum();
+        before + l - Self::l_min(m)
+    }
+
     /// Calls `each` with (m, l, τ, μ), l within m, at the angle with this cosine and sine.
     pub fn visit<T: Scalar>(&self, cos: T, sin: T, mut each: impl FnMut(usize, usize, T, T)) {
         let mut power = T::from(1.0);

@@ -64,6 +64,14 @@ pub struct Multipole {
     pub s: [Complex64; 2],
 }
 
+impl Multipole {
+    /// The same times `factor`.
+    pub fn scaled(self, factor: f64) -> Self {
+        let times = |pair: [Complex64; 2]| pair.map(|z| z * factor);
+        Self { p: times(self.p), s: times(self.s) }
+    }
+}
+
 /// k times the coefficients of the regular waves that `beam` is made of, for m ≥ 0 in the order
 /// of [`Harmonics::visit`].
 pub fn regular(harmonics: &Harmonics, beam: &MirroredWave) -> Vec<Multipole> {

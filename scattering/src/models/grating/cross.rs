@@ -4,19 +4,24 @@
 //!
 //! over the orders (i, j), |i| ≤ `order1` and |j| ≤ `order2`, within α (`alpha`) of the direction
 //! of scattering. The medium above is vacuum. A grating that does not vary along one of its axes
-//! needs no harmonics there, and gets none.
+//! needs no harmonics there, and gets none. NIST's library has three defects of its own in crossed
+//! gratings: [`Defect::CrossedOblique`], [`Defect::CrossedHomogeneous`], [`Defect::CrossedMirror`].
 //!
 //! L. Li, J. Opt. Soc. Am. A 14, 2758 (1997).
 
 use std::f64::consts::TAU;
+
+use num_complex::Complex64;
 
 use super::{
     convergence::{ConvergenceCheck, other_order},
     orders::{OrderConeModel, bounded, half_angle, media, order},
 };
 use crate::{
-    Brdf,
-    cross_grating::{self, CrossGrating, CrossPattern, CrossProfile, HarmonicTruncation},
+    Brdf, Defect,
+    cross_grating::{
+        self, CrossGrating, CrossPattern, CrossProfile, CrossSlice, HarmonicTruncation, ObliqueRule,
+    },
     models::{COMMON, CommonParameters},
     rcw::PeriodicStructure,
     spec::{Class, Laws, Parameter, ParameterError, ParameterNode, Spec},
@@ -44,11 +49,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         let common = CommonParameters::read(node)?;
         let (order1, order2) = (order(node, "order1")?, order(node, "order2")?);
         let profile = profile(node, &common)?;
-        let structure = structure(&profile, &common, HarmonicTruncation { order1, order2 })?;
+        let structure = structure(node, &profile, &common, HarmonicTruncation { order1, order2 })?;
         let check = ConvergenceCheck::new(node, || {
             let others =
                 HarmonicTruncation { order1: other_order(order1), order2: other_order(order2) };
-            self::structure(&profile, &common, others).ok()
+            self::structure(node, &profile, &common, others).ok()
         });
         Ok(Box::new(OrderConeModel::new(common, structure, check, half_angle(node)?)))
     },
@@ -65,6 +70,7 @@ fn profile(
 }
 
 fn structure(
+    node: &ParameterNode,
     profile: &CrossProfile,
     common: &CommonParameters,
     wanted: HarmonicTruncation,
@@ -79,8 +85,26 @@ fn structure(
     let (k0, lattice) = (TAU / common.lambda, profile.lattice);
     let slices = profile.slices.iter().filter(|slice| slice.thickness > 0.0);
     let harmonics = kept.harmonics();
+    let is_mirrored = profile.slices.iter().any(|slice| slice.pattern.is_unsymmetric_line())
+        && node.reproduces(Defect::CrossedMirror);
+    let rule = if lattice.zeta != 0.0 && node.reproduces(Defect::CrossedOblique) {
+        ObliqueRule::Library
+    } else {
+        ObliqueRule::Invariant
+    };
+    let layer = |slice: &CrossSlice| {
+        let mirrored = is_mirrored
+            .then(|| CrossSlice { pattern: slice.pattern.with_mirrored_lines(), ..slice.clone() });
+        let slice = mirrored.as_ref().unwrap_or(slice);
+        let layer = slice.operators(kept, (lattice.zeta, rule), k0 * slice.thickness);
+        let has_inverse_waves = !slice.is_gap
+            && layer.is_homogeneous()
+            && layer.epsilon.zz_inverse[(0, 0)] != Complex64::ONE
+            && node.reproduces(Defect::CrossedHomogeneous);
+        if has_inverse_waves { layer.with_inverse_waves() } else { layer }
+    };
     Ok(PeriodicStructure {
-        layers: slices.map(|s| s.operators(kept, lattice.zeta, k0 * s.thickness)).collect(),
+        layers: slices.map(layer).collect(),
         incident: 1.0,
         behind: profile.below,
         zeroth: harmonics.len() / 2,

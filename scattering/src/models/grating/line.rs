@@ -4,7 +4,8 @@
 //!
 //! over the orders i within α (`alpha`) of the direction of scattering, whose lateral wave
 //! vectors are sin θ_i + (iλ/d) cos r and (iλ/d) sin r, d the period, r the rotation of the
-//! sample. Harmonics −`order`…`order` are kept. The medium above is vacuum.
+//! sample. Harmonics −`order`…`order` are kept. The medium above is vacuum. At normal incidence NIST's
+//! library takes s along y of the grating ([`Defect::LineNormalBasis`]).
 //!
 //! M. G. Moharam, E. B. Grann, D. A. Pommet, T. K. Gaylord, J. Opt. Soc. Am. A 12, 1068 (1995).
 
@@ -15,7 +16,7 @@ use super::{
     orders::{OrderConeModel, bounded, half_angle, media, order},
 };
 use crate::{
-    Brdf,
+    Brdf, Defect,
     grating::{self, Grating, LineProfile},
     models::{COMMON, CommonParameters},
     rcw::PeriodicStructure,
@@ -48,7 +49,11 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         let check = ConvergenceCheck::new(node, || {
             Some(self::structure(&profile, &common, other_order(order)))
         });
-        Ok(Box::new(OrderConeModel::new(common, structure, check, half_angle(node)?)))
+        let model = OrderConeModel::new(common, structure, check, half_angle(node)?);
+        if node.reproduces(Defect::LineNormalBasis) {
+            return Ok(Box::new(model.with_leaning_beam()));
+        }
+        Ok(Box::new(model))
     },
 };
 

@@ -71,8 +71,13 @@ pub(super) struct OrderConeModel {
     check: Option<ConvergenceCheck>,
     alpha: f64,
     cos_alpha: f64,
+    /// A beam without a wave vector across the lines gets a small one.
+    leans: bool,
     recent: Mutex<Vec<CachedOrders>>,
 }
+
+/// Sine across the lines that NIST's library gives to a beam without one.
+const LEANING: f64 = 1e-7;
 
 /// Number of beams whose orders are cached; a run uses a few beams many times.
 const KEPT: usize = 32;
@@ -102,7 +107,21 @@ impl OrderConeModel {
             check.structure = lit(check.structure);
             check
         });
-        Self { common, structure, check, alpha, cos_alpha: alpha.cos(), recent: Mutex::default() }
+        Self {
+            common,
+            structure,
+            check,
+            alpha,
+            cos_alpha: alpha.cos(),
+            leans: false,
+            recent: Mutex::default(),
+        }
+    }
+
+    /// The same with NIST's beam at normal incidence, which leans by 10⁻⁷ across the lines and has
+    /// its polarization in that plane ([`Defect::LineNormalBasis`](crate::Defect::LineNormalBasis)).
+    pub(super) fn with_leaning_beam(self) -> Self {
+        Self { leans: true, ..self }
     }
 
     fn orders(&self, incidence: &Incidence) -> SharedOrders {
@@ -129,9 +148,16 @@ impl OrderConeModel {
     }
 
     fn cones_of(&self, structure: &PeriodicStructure, incidence: &Incidence) -> Vec<OrderCone> {
-        let lateral = incidence.to_sample(structure.incident * incidence.sin, 0.0);
+        let index = structure.incident;
+        let lateral = incidence.to_sample(index * incidence.sin, 0.0);
         let normal_s = incidence.to_sample(0.0, 1.0);
-        let wave = IncidentWave { lateral, cos: incidence.cos, normal_s };
+        let wave = if self.leans && lateral.0.abs() < LEANING * index {
+            let (x, y) = (LEANING, lateral.1 / index);
+            let cos = (1.0 - x * x - y * y).sqrt();
+            IncidentWave { lateral: (x * index, lateral.1), cos, normal_s }
+        } else {
+            IncidentWave { lateral, cos: incidence.cos, normal_s }
+        };
         let side = self.common.side;
         let behind = matches!(side, Side::DownDown | Side::UpUp);
         let (sin, cos) = (incidence.sin_rotation, incidence.cos_rotation);

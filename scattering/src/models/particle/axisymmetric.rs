@@ -84,6 +84,9 @@ fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, Parame
         if m_max < orders.start() {
             node.reproduces(Defect::AxisymmetricIndex);
         }
+        if m_max == 1 {
+            node.reproduces(Defect::SingleOrder);
+        }
         let height = shape.spheroid().map_or(shape.height(), |spheroid| spheroid.vertical);
         let centre = height + ground.distance();
         let orders = if shape.reach() > centre {
@@ -98,6 +101,13 @@ fn build(node: &ParameterNode, buried: bool) -> Result<SupportedParticle, Parame
         return SupportedParticle::converged(ground, node, &orders, particle);
     }
     let particle = tmatrix::read(node, &shape, relative, ground.k)?;
+    if particle.m_max() == 1 {
+        // Defect::SingleOrder: nothing can be inverted.
+        return Err(ParameterError::new(
+            "mmax",
+            "NIST's library has no answer for orders up to m = 1: its matrix has no inverse",
+        ));
+    }
     let (l_max, incomplete) = (particle.l_max, particle.m_max() < particle.l_max);
     let supported = SupportedParticle::as_the_library(ground, &particle, shape.height(), l_max)?;
     if incomplete && node.reproduces(Defect::AxisymmetricIndex) {

@@ -32,7 +32,8 @@ use crate::{
     tmatrix::{
         TMatrix,
         converged::{self, Level, Orders},
-        waves::{self, MirroredWave, Multipole, OutgoingMultipoles},
+        mispairing,
+        waves::{self, MirroredWave, OutgoingMultipoles},
     },
 };
 
@@ -225,15 +226,22 @@ impl SupportedParticle {
         Self { mispairs: true, ..self }
     }
 
-    fn excited(&self, incidence: &Incidence) -> OutgoingMultipoles {
+    fn excited(&self, incidence: &Incidence) -> Excited {
         let below = self.ground.side.from_below();
         let (sin, cos) = self.ground.angle(incidence.theta(), incidence.sin, incidence.cos);
+        let mut growth = 1.0;
         let beam = if below {
-            let (cos, t) = self.ground.through(sin, cos, self.height);
+            let (mut cos, t) = self.ground.through(sin, cos, self.height);
             let factor = self.ground.n.sqrt().recip();
+            let mut kappa = self.ground.n * sin;
+            if self.ground.nudges && cos.im == 0.0 {
+                let half = HalfAngle::of_the_library(kappa);
+                (kappa, cos) = (half.sin, half.cos.into());
+                growth = half.square;
+            }
             MirroredWave {
                 cos,
-                sin: self.ground.n * sin,
+                sin: kappa,
                 direct: SpAmplitudes::default(),
                 mirrored: times(t, factor.into()),
             }
@@ -241,20 +249,24 @@ impl SupportedParticle {
             let mirrored = self.ground.reflected(sin, cos, self.height);
             MirroredWave { mirrored, ..MirroredWave::free(cos, sin) }
         };
-        let w = self.response.apply(&waves::regular(&self.incoming, &beam));
-        if self.mispairs {
-            mispaired(&w, &self.outgoing)
+        let mut regular = waves::regular(&self.incoming, &beam);
+        if growth != 1.0 {
+            self.incoming.visit(1.0, 0.0, |m, l, _, _| {
+                let at = self.incoming.place(m, l);
+                regular[at] = regular[at].scaled(growth.powi(l as i32));
+            });
+        }
+        let w = self.response.apply(&regular);
+        if !self.mispairs {
+            Excited::Multipoles(OutgoingMultipoles::symmetric(w.into_iter()))
+        } else if self.ground.side.to_below() {
+            Excited::MispairedInside(mispairing::inside(&w, &self.outgoing))
         } else {
-            OutgoingMultipoles::symmetric(w.into_iter())
+            Excited::Multipoles(mispairing::outside(&w, &self.outgoing))
         }
     }
 
-    fn amplitude(
-        &self,
-        excited: &OutgoingMultipoles,
-        incidence: &Incidence,
-        direction: &Direction,
-    ) -> Jones {
+    fn amplitude(&self, excited: &Excited, incidence: &Incidence, direction: &Direction) -> Jones {
         let ground = &self.ground;
         let (sin, cos) = ground.angle(direction.theta(), direction.sin, direction.cos);
         let beam = if ground.side.to_below() {
@@ -274,8 +286,36 @@ impl SupportedParticle {
         let side = if (direction.sin < 0.0) != (incidence.sin < 0.0) { -1.0 } else { 1.0 };
         let azimuth = (side * direction.cos_phi, side * direction.sin_phi);
         let area = ground.density / (incidence.cos * direction.cos).abs();
-        let j = excited.amplitude(&self.outgoing, &beam, azimuth).scaled(area.sqrt() / ground.k);
+        let j = match excited {
+            Excited::Multipoles(all) => all.amplitude(&self.outgoing, &beam, azimuth),
+            Excited::MispairedInside(all) => all.amplitude(&beam, azimuth),
+        };
+        let j = j.scaled(area.sqrt() / ground.k);
         if ground.flips { j.flipped() } else { j }
+    }
+}
+
+/// The angle of light out of the substrate as NIST's library rounds it
+/// ([`Defect::HalfAngle`](crate::Defect::HalfAngle)).
+///
+/// The library computes the rotation matrices, of degree 2l in the sine and the cosine of half the
+/// angle, from sin² = (1 − cos θ)/2 and cos = sin θ/(2 sin), whose squares do not sum to 1 at small
+/// angles.
+struct HalfAngle {
+    /// Sine and cosine of the angle when both are divided by the root of their sum of squares.
+    sin: f64,
+    cos: f64,
+    /// The sum of their squares.
+    square: f64,
+}
+
+impl HalfAngle {
+    fn of_the_library(kappa: f64) -> Self {
+        let half_sin = (1.0 - (1.0 - kappa * kappa).sqrt()).sqrt() / 2f64.sqrt();
+        let half_cos = kappa / 2.0 / half_sin;
+        let (s, c) = (half_sin * half_sin, half_cos * half_cos);
+        let square = s + c;
+        Self { sin: kappa / square, cos: (c - s) / square, square }
     }
 }
 
@@ -319,39 +359,12 @@ fn times(pair: SpAmplitudes, factor: Complex64) -> SpAmplitudes {
     SpAmplitudes { s: pair.s * factor, p: pair.p * factor }
 }
 
-/// The multipoles as the library pairs them: the list of those with l ≤ L and |m| ≤ min(m_max, l)
-/// takes its values one by one from the start of the list of all |m| ≤ l.
-fn mispaired(w: &[(usize, usize, Multipole)], harmonics: &Harmonics) -> OutgoingMultipoles {
-    let (l_max, m_max) = (harmonics.l_max(), harmonics.m_max());
-    let place = |l: usize, m: isize| 2 * (l * l + l - 1).wrapping_add_signed(m);
-    let mut full = vec![[Complex64::ZERO; 2]; 2 * l_max * (l_max + 2)];
-    // The library's P̃_l^{−m} is (−1)^m P̃_l^m.
-    let sign = |m: usize| if m.is_multiple_of(2) { 1.0 } else { -1.0 };
-    for (m, l, w) in w {
-        let (m, l) = (*m, *l);
-        let at = place(l, -(m as isize));
-        full[at] = [w.p[0] * sign(m), w.s[0] * -sign(m)];
-        full[at + 1] = [w.p[1] * -sign(m), w.s[1] * sign(m)];
-        let at = place(l, m as isize);
-        full[at] = [w.p[0], w.s[0]];
-        full[at + 1] = [w.p[1], w.s[1]];
-    }
-    let start = |l: usize| -> usize { (1..l).map(|l| 2 * (2 * l.min(m_max) + 1)).sum() };
-    let end = start(l_max + 1);
-    let mut paired = Vec::new();
-    for m in 0..=m_max {
-        for l in Harmonics::l_min(m)..=l_max {
-            let middle = start(l) + 2 * l.min(m_max);
-            let read = |at: usize, sign: f64| {
-                let value = |at: usize| if at < end { full[at] } else { [Complex64::ZERO; 2] };
-                let ([pe, se], [ph, sh]) = (value(at), value(at + 1));
-                Multipole { p: [pe * sign, ph * sign], s: [se * sign, sh * sign] }
-            };
-            let minus = if m == 0 { Multipole::default() } else { read(middle - 2 * m, sign(m)) };
-            paired.push((l, read(middle + 2 * m, 1.0), minus));
-        }
-    }
-    OutgoingMultipoles::general(&paired)
+/// The multipoles that light has excited.
+enum Excited {
+    /// Each with its own harmonic.
+    Multipoles(OutgoingMultipoles),
+    /// Paired as in NIST's library, of light into the substrate.
+    MispairedInside(mispairing::Inside),
 }
 
 impl Brdf for SupportedParticle {
@@ -376,35 +389,5 @@ impl Brdf for SupportedParticle {
 
     fn is_coherent(&self) -> bool {
         true
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::optics::film::Films;
-
-    #[test]
-    fn with_all_orders_the_librarys_pairing_is_the_right_one() {
-        let harmonics = Harmonics::new(4, 4);
-        let z = |at: usize, j: usize| Complex64::new((at + j) as f64, (at * j) as f64 - 3.0);
-        let mut w = Vec::new();
-        harmonics.visit(0.5, 0.5, |m, l, _, _| {
-            let at = w.len();
-            let (p, s) = match m {
-                0 => ([z(at, 1), Complex64::ZERO], [Complex64::ZERO, z(at, 4)]),
-                _ => ([z(at, 1), z(at, 2)], [z(at, 3), z(at, 4)]),
-            };
-            w.push((m, l, Multipole { p, s }));
-        });
-        let films = Films::new(&[], Complex64::ONE, Complex64::new(1.5, 0.1), 0.6);
-        let beam =
-            MirroredWave { mirrored: films.r12(0.6.into()), ..MirroredWave::free(-0.8, 0.6) };
-        let azimuth = (0.6, 0.8);
-        let a = mispaired(&w, &harmonics).amplitude(&harmonics, &beam, azimuth);
-        let b = OutgoingMultipoles::symmetric(w.into_iter()).amplitude(&harmonics, &beam, azimuth);
-        let difference = (a.ss - b.ss).norm() + (a.ps - b.ps).norm();
-        let other = (a.pp - b.pp).norm() + (a.sp - b.sp).norm();
-        assert!(difference + other < 1e-11 * a.ss.norm(), "{a:?} {b:?}");
     }
 }
