@@ -5,7 +5,7 @@ use std::{fs, path::Path};
 use assert_cmd::Command;
 use axum::{
     body::{Body, to_bytes},
-    http::{Request, StatusCode, header},
+    http::{HeaderValue, Request, StatusCode, header},
 };
 use mist_server::http::{App, router};
 use rise_bridge::{mitsuba::pbsdf::PbsdfTable, tensor::TensorReader};
@@ -112,8 +112,14 @@ fn what_cannot_be_written_is_refused_with_the_reason_and_leaves_no_file() {
 #[tokio::test]
 async fn the_service_gives_the_tables_by_one_url_and_knows_its_tags() {
     let app = App::default();
-    let ask = async |request: Request<Body>| router(app.clone()).oneshot(request).await.unwrap();
-    let put = Request::put("/v1/materials/metal").body(Body::from(METAL)).unwrap();
+    let ask = async |mut request: Request<Body>| {
+        request.headers_mut().insert(header::HOST, HeaderValue::from_static("localhost"));
+        router(app.clone()).oneshot(request).await.unwrap()
+    };
+    let put = Request::put("/v1/materials/metal")
+        .header("content-type", "application/json")
+        .body(Body::from(METAL))
+        .unwrap();
     assert_eq!(ask(put).await.status(), StatusCode::CREATED);
     for (file, field) in [
         ("table.pbsdf?grid=5x4x6", "M"),

@@ -69,7 +69,7 @@ pub(crate) enum ComputeError {
 }
 
 /// A computation that waits or runs; dropping it ends the computation.
-struct Place {
+struct AdmittedWork {
     shared: Arc<Shared>,
     client: String,
     size: WorkSize,
@@ -84,7 +84,7 @@ impl Drop for CancelOnDrop {
     }
 }
 
-impl Drop for Place {
+impl Drop for AdmittedWork {
     fn drop(&mut self) {
         self.shared.turns().leave(&self.client, self.size);
     }
@@ -187,7 +187,7 @@ impl ComputePool {
 }
 
 /// Frees the place of a small computation for others, as it takes long.
-fn outgrow(place: &std::sync::Weak<Mutex<Place>>) {
+fn outgrow(place: &std::sync::Weak<Mutex<AdmittedWork>>) {
     let Some(place) = place.upgrade() else { return };
     let mut place = place.lock().unwrap_or_else(PoisonError::into_inner);
     place.size = WorkSize::Large;
@@ -204,13 +204,17 @@ struct PendingTurn<'a> {
 }
 
 impl PendingTurn<'_> {
-    async fn wait(&mut self) -> Place {
+    async fn wait(&mut self) -> AdmittedWork {
         if let Some(begun) = &mut self.begun {
             // The sender is dropped only with the whole pool.
             let _ = begun.await;
         }
         self.begun = None;
-        Place { shared: self.shared.clone(), client: self.client.to_owned(), size: self.size }
+        AdmittedWork {
+            shared: self.shared.clone(),
+            client: self.client.to_owned(),
+            size: self.size,
+        }
     }
 }
 

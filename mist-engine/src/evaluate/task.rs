@@ -92,7 +92,7 @@ impl MuellerResult {
     }
 }
 
-/// What a task gave.
+/// Result of a task.
 pub(super) struct TaskResult {
     pub(super) found: MuellerResult,
     /// Evaluations of the model.

@@ -399,7 +399,7 @@ mod tests {
         assert!(matches!(parse("angle\n1\n"), Err(MeasuredError::NoOutput { .. })));
         assert!(matches!(parse("R R\n1 1\n"), Err(MeasuredError::Twice(_))));
         assert!(matches!(parse("R angle\n1\n"), Err(MeasuredError::Width { line: 2, .. })));
-        assert!(matches!(parse("R\n1,5\n"), Err(MeasuredError::LoopCell { line: 2, .. })));
+        assert!(matches!(parse("R\n1x5\n"), Err(MeasuredError::LoopCell { line: 2, .. })));
         assert!(matches!(parse("R sigma\n1 0\n"), Err(MeasuredError::LoopCell { line: 2, .. })));
         let locate = |text| parse(text).unwrap().locate(&rows(), &titles()[0]);
         assert!(matches!(locate("R\n1\n"), Err(MeasuredError::Count { .. })));

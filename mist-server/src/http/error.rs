@@ -52,7 +52,7 @@ pub(crate) enum ApiError {
     Busy(LimitReached),
     /// The service is stopping.
     Unavailable(String),
-    /// What is kept cannot be read or written.
+    /// The store cannot be read or written.
     Store(String),
     /// A problem that is ready to be sent.
     Problem(Box<Problem>),

@@ -274,7 +274,8 @@ mod tests {
         let (a, b) = (Complex64::new(2.4, 0.3), Complex64::new(0.1, -0.05));
         let (exact, powers) = (inverse_cosine(a, b, 0.4, 6), powers_of_cosine(a, b, 0.4, 6));
         for m in -6..=6 {
-            assert!((exact.at(m) - powers.at(m)).norm() < 1e-16, "{m}");
+            // Rounding of a value of 0.4.
+            assert!((exact.at(m) - powers.at(m)).norm() < 3e-16, "{m}");
         }
     }
 

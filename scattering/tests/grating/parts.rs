@@ -10,7 +10,7 @@ use scattering::{
 /// The class `name` with the parameters given, the others at their defaults.
 pub(crate) fn node(name: &str, values: &[(&str, ParameterValue)]) -> ParameterNode {
     let class = find_class(name).unwrap_or_else(|| panic!("class {name}"));
-    values.iter().fold(ParameterNode::with_defaults(class, Mode::Compat), |node, (name, value)| {
+    values.iter().fold(ParameterNode::with_defaults(class, Mode::Sound), |node, (name, value)| {
         node.with(name, value.clone()).unwrap()
     })
 }

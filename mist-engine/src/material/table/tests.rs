@@ -50,9 +50,11 @@ fn a_grey_sample_is_grey_in_every_patch_and_flagged_at_the_horizon() {
         let table = run(GREY, &request(grid(patch)));
         assert_eq!(table.stokes, 3);
         for row in &table.rows {
-            // Weights are normalized per patch; the adaptation of white adds rounding.
+            // The adaptation of white adds rounding; adaptive circles add the error of their rule,
+            // which is far below the stated 1e-5 for a constant.
+            let error = if matches!(patch, GridPatch::Circle(_)) { 1e-9 } else { 1e-12 };
             for value in row.rgb[0].iter().chain([&row.xyz[0][1]]) {
-                assert!((value * std::f64::consts::PI - 0.5).abs() < 1e-12, "{patch:?} {value}");
+                assert!((value * std::f64::consts::PI - 0.5).abs() < error, "{patch:?} {value}");
             }
             let at_horizon = row.thetai == 90.0 || row.thetas == 90.0;
             assert_eq!(row.flags, if at_horizon { ColourRow::FILLED } else { 0 });
