@@ -196,18 +196,18 @@ impl<'a> HeightTransport<'a> {
     fn solve(&self, block: TransferBlock) -> LayerOperator {
         let [a, b] = self.generators(block);
         let step = 2.0 * REACH / SLICES as f64;
-        let at = |x: f64| {
-            let c = 1.0 / (1.0 + (-x).exp());
-            &a * faer::Scale(1.0 - c) + &b * faer::Scale(c)
-        };
         let offset = step * 3f64.sqrt() / 6.0;
+        // The commutator of two generators (1 − C)G_a + C G_b is C₁ − C₂ times that of G_a and G_b.
+        let commutator = &a * &b - &b * &a;
+        let heights = |x: f64| 1.0 / (1.0 + (-x).exp());
         let mut whole: Option<LayerOperator> = None;
         for k in 0..SLICES {
             let middle = REACH - step * (k as f64 + 0.5);
-            let (g1, g2) = (at(middle + offset), at(middle - offset));
-            let commutator = &g2 * &g1 - &g1 * &g2;
-            let omega = (g1 + g2) * faer::Scale(0.5 * step)
-                + commutator * faer::Scale(3f64.sqrt() / 12.0 * step * step);
+            let (c1, c2) = (heights(middle + offset), heights(middle - offset));
+            let mean = 0.5 * (c1 + c2);
+            let omega = &a * faer::Scale(step * (1.0 - mean))
+                + &b * faer::Scale(step * mean)
+                + &commutator * faer::Scale(3f64.sqrt() / 12.0 * step * step * (c1 - c2));
             let slice = slice(&omega);
             whole = Some(whole.map_or_else(|| slice.clone(), |whole| whole.over(&slice)));
         }
