@@ -2,6 +2,7 @@
 
 mod laws;
 mod reference;
+mod rough;
 
 use std::{f64::consts::PI, sync::Arc};
 
@@ -15,7 +16,6 @@ use super::{
     nodes::RayNodes,
     phase_matrix,
     phase_table::PhaseTable,
-    rough::FacetBounces,
     single::SingleSlab,
     slab::{self, SlabMedium},
     stack::{
@@ -203,7 +203,6 @@ fn light_from_the_depth_is_polarized_at_the_limb_as_in_milne_s_problem() {
     assert!((contrast - 3.063).abs() < 2e-3, "{contrast}");
 }
 
-/// The largest element of the difference of two stacks' reflection in several blocks.
 #[test]
 fn interpolated_values_are_those_of_the_file() {
     for name in ["rayleigh_grey", "mie_walk"] {
@@ -234,55 +233,6 @@ fn interpolated_values_are_those_of_the_file() {
 fn flakes_are_those_of_the_file() {
     for name in ["flakes_metal", "flakes_white"] {
         check_case(name, &resolution(14, 11, 8), 5e-5);
-    }
-}
-
-#[test]
-fn a_rough_face_over_white_loses_nothing() {
-    let case = case("rough_white");
-    let mut resolution = resolution(12, 9, 8);
-    resolution.modes = 0;
-    let stack = stack(&case["inputs"], 9);
-    let transfer = TransferProblem::new(&stack, &resolution, &[]);
-    let diffuse = NodeBrdf::new(&transfer, 0);
-    for i in 0..resolution.outside {
-        let [all, q] = diffuse.returned(i);
-        assert!((all - 1.0).abs() < 1e-11 && q.abs() < 1e-11, "{i}: {all} {q}");
-    }
-}
-
-#[test]
-fn all_bounces_at_a_rough_face_return_as_much_as_in_the_file() {
-    let case = case("rough");
-    let mut resolution = resolution(16, 12, 22);
-    resolution.modes = 0;
-    let stack = stack(&case["inputs"], 23);
-    let transfer = TransferProblem::new(&stack, &resolution, &numbers(&case["mu_i"]));
-    let diffuse = NodeBrdf::new(&transfer, 0);
-    for i in 0..2 {
-        let returned = diffuse.returned(resolution.outside + i);
-        for (a, b) in returned.iter().zip(numbers(&case["returned_all_IQ"][i])) {
-            assert!((a - b).abs() < 3e-4, "{i}: {a} {b}");
-        }
-    }
-}
-
-#[test]
-fn the_cheap_closure_of_a_rough_face_is_off_as_stated() {
-    // Multiply bounced light leaves diffusely instead of forward: up to 0.007 too dark.
-    let case = case("rough");
-    let mut resolution = resolution(12, 9, 22);
-    resolution.modes = 0;
-    let mut stack = stack(&case["inputs"], 23);
-    if let LayerFace::Rough(face) = &mut stack.layers[0].face {
-        face.bounces = FacetBounces::First;
-    }
-    let transfer = TransferProblem::new(&stack, &resolution, &numbers(&case["mu_i"]));
-    let diffuse = NodeBrdf::new(&transfer, 0);
-    for i in 0..2 {
-        let [all, _] = diffuse.returned(resolution.outside + i);
-        let off = all - numbers(&case["returned_all_IQ"][i])[0];
-        assert!((-0.007..0.0).contains(&off), "{i}: {off}");
     }
 }
 
