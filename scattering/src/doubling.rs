@@ -12,7 +12,6 @@
 
 pub mod azimuth;
 pub mod block;
-
 pub mod diffuse;
 pub mod energy_balance;
 pub mod expansion;
@@ -21,6 +20,7 @@ mod facet_media;
 pub mod flakes;
 pub mod heights;
 pub mod interface;
+pub mod kernel_cache;
 pub mod nodes;
 pub mod operator;
 pub mod phase_matrix;

@@ -9,12 +9,15 @@
 //! K. E. Torrance and E. M. Sparrow, J. Opt. Soc. Am. 57, 1105 (1967); B. Walter et al., Proc. EGSR
 //! (2007); M. I. Sancer, IEEE Trans. Antennas Propag. AP-17, 577 (1969).
 
+use std::sync::Arc;
+
 use super::{
     block::{RealMatrix, joined, quarters},
     facet::{PolarizedRay, mueller},
     facet_media::FacetMedia,
     heights,
     interface::SmoothFace,
+    kernel_cache::{ContentKey, KernelCache},
     nodes::{MediumDirections, RayNodes},
     operator::LayerOperator,
     scaling,
@@ -23,6 +26,10 @@ use super::{
 
 /// Points of the integrals over slopes, in slope and azimuth.
 const SLOPES: (usize, usize) = (60, 64);
+
+/// Faces of all models. A binder without dispersion and without films has one face at all
+/// wavelengths, whatever its slab and the bottom are.
+static FACES: KernelCache<RoughKernel> = KernelCache::new(128 << 20);
 
 /// A face of Gaussian facets.
 #[derive(Clone, Debug)]
@@ -54,10 +61,41 @@ pub struct RoughKernel {
 }
 
 impl RoughFace {
-    /// The face from a medium of index `above` to `below` in the modes 0 … `last`.
-    pub fn kernel(&self, nodes: &RayNodes, above: f64, below: f64, last: usize) -> RoughKernel {
+    /// The face from a medium of index `above` to `below` in the modes 0 … `last`, computed once for
+    /// equal faces.
+    pub fn kernel(
+        &self,
+        nodes: &RayNodes,
+        above: f64,
+        below: f64,
+        last: usize,
+    ) -> Arc<RoughKernel> {
         let (up, down) = (nodes.inside(above), nodes.inside(below));
-        let media = FacetMedia { films: &self.films, slopes: self.slopes, sides: [&up, &down] };
+        FACES.get_or_compute(self.key([&up, &down], last), || {
+            let kernel = self.computed(&up, &down, last);
+            let bytes = kernel.bytes();
+            (kernel, bytes)
+        })
+    }
+
+    /// All numbers that the operators depend on.
+    fn key(&self, sides: [&MediumDirections; 2], last: usize) -> ContentKey {
+        let all = if self.bounces == FacetBounces::All { 1.0 } else { 0.0 };
+        let mut key = ContentKey::default();
+        key.extend([last as f64, all, self.slopes.sigma].into_iter());
+        for (index, thickness) in &self.films.films {
+            key.extend([index.re, index.im, *thickness].into_iter());
+        }
+        for side in sides {
+            key.extend(std::iter::once(side.n));
+            key.extend(side.mu.iter().copied());
+            key.extend(side.w.iter().copied());
+        }
+        key
+    }
+
+    fn computed(&self, up: &MediumDirections, down: &MediumDirections, last: usize) -> RoughKernel {
+        let media = FacetMedia { films: &self.films, slopes: self.slopes, sides: [up, down] };
         let raw = media.one_bounce(last);
         let first = raw.iter().map(|operator| operator.r_down.clone()).collect();
         let modes = match self.bounces {
@@ -65,6 +103,18 @@ impl RoughFace {
             FacetBounces::All => heights::operators(&media, last),
         };
         RoughKernel { modes, first }
+    }
+}
+
+impl RoughKernel {
+    /// Memory that it takes, bytes.
+    pub fn bytes(&self) -> usize {
+        let size = |m: &RealMatrix| m.nrows() * m.ncols() * size_of::<f64>();
+        let operator = |o: &LayerOperator| {
+            [&o.r_down, &o.t_down, &o.r_up, &o.t_up].map(size).iter().sum::<usize>()
+        };
+        let modes: usize = self.modes.iter().map(operator).sum::<usize>();
+        modes + self.first.iter().map(size).sum::<usize>()
     }
 }
 

@@ -124,7 +124,7 @@ pub struct TransferProblem<'a> {
     /// Phase matrices after δ–M: series, scattering depth, extinction depth.
     scaled: Vec<Option<ScaledParticles>>,
     flakes: Vec<Option<FlakeKernel>>,
-    rough: Vec<Option<RoughKernel>>,
+    rough: Vec<Option<Arc<RoughKernel>>>,
     /// f₊ of the surface below all layers.
     surface: Arc<Vec<RealMatrix>>,
 }
