@@ -62,7 +62,8 @@ class Service:
 
     def put(self, name, material):
         request = urllib.request.Request(f"{self.url}/v1/materials/{name}", method="PUT",
-                                         data=json.dumps(material).encode())
+                                         data=json.dumps(material).encode(),
+                                         headers={"content-type": "application/json"})
         urllib.request.urlopen(request).close()
 
 
