@@ -73,7 +73,9 @@ impl JobQueue {
             let value = limits.max_queued as f64;
             return Err(JobsError::Full(LimitReached { flag: "max-queued", value, message }));
         }
-        if self.over.is_empty() && self.stored >= limits.max_stored {
+        // A job that has just ended is not among those over yet, but makes room like them.
+        let is_full = self.stored >= limits.max_stored;
+        if is_full && self.jobs.values().all(|job| !job.status.borrow().state.is_over()) {
             let message = "the jobs that wait or run fill the store".into();
             let value = limits.max_stored as f64;
             return Err(JobsError::Full(LimitReached { flag: "max-stored", value, message }));
