@@ -220,7 +220,7 @@ impl PreparedMaterial {
 
     /// The models at all `wavelengths` (nm), built in parallel.
     ///
-    /// What is to be told of them joins [`PreparedMaterial::warnings`].
+    /// Their notices become [`PreparedMaterial::warnings`].
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Rules about who may use the service, apart from keys; each is a flag of `mist serve`.
+//! Access rules of the service besides keys; each is a flag of `mist serve`.
 
 use std::net::SocketAddr;
 
@@ -22,7 +22,7 @@ pub struct AccessOptions {
 }
 
 impl AccessOptions {
-    /// True if everybody who reaches `listen` could use the service although nobody said so.
+    /// True if a listener beyond loopback has neither keys nor `--open`.
     pub(crate) fn is_exposed(&self, listen: &SocketAddr, has_keys: bool) -> bool {
         !(listen.ip().is_loopback() || has_keys || self.open)
     }

@@ -22,7 +22,7 @@ pub(crate) struct StoredMaterial {
     pub(crate) text: String,
     /// True for JSON, false for the text of a program.
     pub(crate) is_json: bool,
-    /// The client that stored it, as far as it is known.
+    /// The client that stored it, if known.
     pub(crate) owner: Option<String>,
     /// `sha256-…` of that body.
     pub(crate) hash: String,

@@ -28,7 +28,7 @@ pub enum ServeError {
     /// It cannot start.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// Everybody who reaches the address could use the service.
+    /// A listener beyond loopback without keys and without `--open`.
     #[error(
         "{0} can be reached from other machines: give --keys FILE (see `mist key`), or --open if \
          everybody may use the service"

@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-/// Errors of a grid above this part of the integral for unpolarized light are told.
+/// Relative error of a grid, of the integral for unpolarized light, above which a warning is given.
 const NOTICED: f64 = 1e-3;
 
 /// A lobe that is narrower than the distance of directions, and that the grid integrates wrongly.

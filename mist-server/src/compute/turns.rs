@@ -129,7 +129,7 @@ impl Turns {
                     queues.push_back((client, queue));
                     continue;
                 }
-                // Those who left do not take the turn of their client.
+                // A client that has left does not take a turn.
                 let begun = std::iter::from_fn(|| queue.pop_front()).any(|b| b.send(()).is_ok());
                 if begun {
                     refused = 0;

@@ -64,7 +64,7 @@ impl<'a> FileRequest<'a> {
         (bytes, size): (f64, WorkSize),
         work: impl FnOnce(&Control) -> Result<Bytes, ApiError> + Send + 'static,
     ) -> Result<Response, ApiError> {
-        // What a client may not compute is no failure for another that may.
+        // A refusal of one client is not shared with others, whose limits may differ.
         let key = format!("{}{}", client.scope.name(), self.tag);
         let (mut subscriber, producer) = app.files.join(&key);
         app.metrics.count_table(producer.is_none());

@@ -86,7 +86,7 @@ pub(super) async fn submit(
     body: ProgramRequest,
 ) -> Result<Response, ApiError> {
     app.jobs.admit(&client.name)?;
-    // What is wrong with a program is told now rather than later.
+    // An invalid program is refused now, not when the job runs.
     let limits = app.limits.clone();
     let body = app
         .compute_in_time(

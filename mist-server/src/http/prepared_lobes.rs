@@ -28,7 +28,7 @@ impl PreparedLobes {
         Self { lobes, out, nanoseconds: AtomicU64::new(0) }
     }
 
-    /// Time that so many evaluations will take, as far as it is known from others.
+    /// Estimated time of this number of evaluations, from earlier computations.
     pub(super) fn expected_time(&self, evaluations: usize) -> Duration {
         match self.nanoseconds.load(Ordering::Relaxed) {
             0 => Duration::MAX,
