@@ -268,9 +268,10 @@ impl PreparedMaterial {
     fn check_tables(&self, all: &[Self]) -> Result<(), MaterialError> {
         let mut uses = TableUses::default();
         all.iter().for_each(|material| uses.see(&material.parameters));
-        for TableFinding { path, is_error, warning } in uses.findings() {
+        for TableFinding { paths, is_error, warning } in uses.findings() {
             if is_error && self.mode == Mode::Sound {
-                let error = SetError::value(warning.message).help_if(warning.help).named(&path);
+                let path = paths.first().map_or("", String::as_str);
+                let error = SetError::value(warning.message).help_if(warning.help).named(path);
                 return Err(error.into());
             }
             self.warn(std::iter::once(warning));

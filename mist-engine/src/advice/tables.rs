@@ -15,8 +15,9 @@ pub(super) fn findings(job: &Job, uses: &TableUses, is_whole: bool) -> Vec<Diagn
 }
 
 fn diagnostic(job: &Job, finding: TableFinding, is_whole: bool) -> Diagnostic {
-    let TableFinding { path, is_error, warning } = finding;
-    let span = place(job, &path).span();
+    let TableFinding { paths, is_error, warning } = finding;
+    let places = paths.iter().map(|path| place(job, path).span());
+    let span = places.min_by_key(|span| span.start).unwrap_or(job.plan.program.model.span());
     let is_error = is_error && is_whole && job.options.mode == Mode::Sound;
     let found = match is_error {
         true => Diagnostic::error(warning.code, span, warning.message),

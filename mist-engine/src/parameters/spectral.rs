@@ -28,11 +28,11 @@ struct TableUse {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TableUses(BTreeMap<(String, String), TableUse>);
 
-/// A finding about a table: the dotted name of its parameter and the message.
+/// A finding about a table: the dotted names of its parameters and the message.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TableFinding {
-    /// The dotted name of the parameter that names the file.
-    pub(crate) path: String,
+    /// The dotted names of the parameters that name the file, at least one.
+    pub(crate) paths: Vec<String>,
     /// True if the values have nothing to do with the wavelengths that are asked.
     pub(crate) is_error: bool,
     pub(crate) warning: Warning,
@@ -73,9 +73,33 @@ impl TableUses {
         found.asked = [found.asked[0].min(lambda), found.asked[1].max(lambda)];
     }
 
-    /// Everything that is wrong with the uses.
+    /// Everything that is wrong with the uses: an error for each parameter, a warning for each
+    /// file, with all the wavelengths at which its parameters ask it outside of its range.
     pub(crate) fn findings(&self) -> Vec<TableFinding> {
-        self.0.iter().filter_map(|((path, file), table)| table.finding(path, file)).collect()
+        let mut errors = Vec::new();
+        let mut extrapolated: BTreeMap<&str, (TableUse, Vec<String>)> = BTreeMap::new();
+        for ((path, file), table) in &self.0 {
+            match table.coverage() {
+                Coverage::Whole => {}
+                Coverage::Part => {
+                    let (whole, paths) =
+                        extrapolated.entry(file.as_str()).or_insert((*table, Vec::new()));
+                    whole.join(table);
+                    paths.push(path.clone());
+                }
+                Coverage::Nothing => errors.push(TableFinding {
+                    paths: vec![path.clone()],
+                    is_error: true,
+                    warning: table.disjoint(file),
+                }),
+            }
+        }
+        errors.extend(extrapolated.into_iter().map(|(file, (whole, paths))| TableFinding {
+            paths,
+            is_error: false,
+            warning: whole.extrapolation(file),
+        }));
+        errors
     }
 }
 
@@ -84,40 +108,64 @@ fn is_over_wavelength(parameter: &Parameter) -> bool {
     matches!(parameter.kind, ParameterKind::Table(_)) && parameter.doc.contains("wavelength")
 }
 
+/// The part of the wavelengths that are asked which a table has.
+enum Coverage {
+    Whole,
+    Part,
+    Nothing,
+}
+
 impl TableUse {
-    fn finding(&self, path: &str, file: &str) -> Option<TableFinding> {
+    fn coverage(&self) -> Coverage {
         let Self { table: [low, high], asked: [first, last] } = *self;
         // A table of one row is a constant.
         if low == high || (first >= low * (1.0 - 1e-9) && last <= high * (1.0 + 1e-9)) {
-            return None;
+            Coverage::Whole
+        } else if last < low / FAR || first > high * FAR {
+            Coverage::Nothing
+        } else {
+            Coverage::Part
         }
-        let path = path.to_owned();
-        let (table, asked) = (range(low, high), range(first, last));
-        let is_apart = last < low / FAR || first > high * FAR;
-        if let Some(unit) = self.unit().filter(|_| is_apart) {
-            let message = format!(
-                "the wavelengths of {file} are read in um and go from {table}, and {asked} um is \
-                 asked: the table looks like {}",
-                unit.name
-            );
-            let warning = Warning::new("table/unit", message).help(unit.help);
-            return Some(TableFinding { path, is_error: true, warning });
+    }
+
+    /// Adds the wavelengths of another use of the same file.
+    fn join(&mut self, other: &Self) {
+        let [first, last] = other.asked;
+        self.asked = [self.asked[0].min(first), self.asked[1].max(last)];
+    }
+
+    /// The message about a table that has none of the wavelengths.
+    fn disjoint(&self, file: &str) -> Warning {
+        let [table, asked] = [self.table, self.asked].map(range);
+        match self.unit() {
+            Some(unit) => {
+                let message = format!(
+                    "the wavelengths of {file} are read in um and go from {table}, and {asked} um \
+                     is asked: the table looks like {}",
+                    unit.name
+                );
+                Warning::new("table/unit", message).help(unit.help)
+            }
+            None => {
+                let message = format!(
+                    "no wavelength that is asked ({asked} um) lies in {file}, which goes from \
+                     {table} um"
+                );
+                let help = "give a table of this range; wavelengths of tables are in um";
+                Warning::new("table/range", message).help(help)
+            }
         }
-        if is_apart {
-            let message = format!(
-                "no wavelength that is asked ({asked} um) lies in {file}, which goes from {table} um"
-            );
-            let help = "give a table of this range; wavelengths of tables are in um";
-            let warning = Warning::new("table/range", message).help(help);
-            return Some(TableFinding { path, is_error: true, warning });
-        }
+    }
+
+    /// The message about a table that lacks some of the wavelengths.
+    fn extrapolation(&self, file: &str) -> Warning {
+        let [table, asked] = [self.table, self.asked].map(range);
         let message = format!(
             "{file} goes from {table} um, and {asked} um is asked: outside of the table its end \
              value is held"
         );
-        let warning = Warning::new("table/extrapolation", message)
-            .help("extend the table, or ask for wavelengths inside of it");
-        Some(TableFinding { path, is_error: false, warning })
+        Warning::new("table/extrapolation", message)
+            .help("extend the table, or ask for wavelengths inside of it")
     }
 
     /// The unit in which the wavelengths that are asked lie in the table, or near it.
@@ -160,8 +208,8 @@ static UNITS: [TableUnit; 4] = [
     },
 ];
 
-fn range(low: f64, high: f64) -> String {
-    let [low, high] = [low, high].map(|x| general(x, 7));
+fn range(ends: [f64; 2]) -> String {
+    let [low, high] = ends.map(|x| general(x, 7));
     if low == high { low } else { format!("{low} to {high}") }
 }
 
@@ -170,7 +218,9 @@ mod tests {
     use super::*;
 
     fn told(table: [f64; 2], asked: [f64; 2]) -> Option<(bool, String)> {
-        let found = TableUse { table, asked }.finding("substrate", "m.txt")?;
+        let mut uses = TableUses::default();
+        asked.iter().for_each(|&x| uses.add("substrate", Some(("m.txt", table)), Some(x)));
+        let found = uses.findings().pop()?;
         Some((found.is_error, found.warning.to_string()))
     }
 
@@ -198,5 +248,17 @@ mod tests {
         let (is_error, message) = told([10.0, 20.0], [0.4, 0.7]).unwrap();
         assert!(is_error && message.contains("no wavelength"), "{message}");
         assert!(!told([0.41, 0.8], [0.4, 0.4]).unwrap().0, "a little outside");
+    }
+
+    #[test]
+    fn a_file_of_several_parameters_has_one_warning_with_the_total_range() {
+        let mut uses = TableUses::default();
+        for (path, lambda) in [("a", 0.36), ("b", 0.83), ("c", 0.5)] {
+            uses.add(path, Some(("m.txt", [0.4, 0.8])), Some(lambda));
+        }
+        let [found] = &uses.findings()[..] else { panic!() };
+        assert_eq!(found.paths, ["a", "b"]);
+        let message = &found.warning.message;
+        assert!(message.contains("0.4 to 0.8 um, and 0.36 to 0.83 um"), "{message}");
     }
 }
