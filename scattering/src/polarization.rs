@@ -6,8 +6,8 @@ mod mueller;
 mod stokes;
 mod weights;
 
-pub(crate) use basis::is_normal;
-pub use basis::{Basis, BeamPair, TransverseFrame, change_basis, perp};
+pub use basis::{Basis, BeamPair, TransverseFrame, UnknownBasis, change_basis, perp};
+pub(crate) use basis::{change_jones_basis, is_normal};
 pub use jones::Jones;
 pub(crate) use jones::{elements, muellers};
 pub use mueller::Mueller;

@@ -10,6 +10,6 @@ mod member;
 mod node;
 pub(crate) mod range;
 
-pub use class::{Class, Family, Laws, Parameter, ParameterKind};
+pub use class::{Class, Family, Laws, Parameter, ParameterKind, number_text};
 pub use member::{Member, Spec, build, classes, specs};
 pub use node::{ParameterError, ParameterNode, ParameterValue, SharedNotices};

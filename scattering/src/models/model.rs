@@ -2,10 +2,10 @@
 
 use super::brdf::{Brdf, CommonParameters, LobeSupport, sum_of};
 use crate::{
-    Basis, Direction, Geometry, Incidence, Mode, Mueller,
+    Basis, Direction, Geometry, Incidence, Jones, Mode, Mueller,
     geometry::beams,
     interrupt,
-    polarization::{DirectionWeights, change_basis},
+    polarization::{DirectionWeights, change_basis, change_jones_basis},
     spec::{self, ParameterError, ParameterNode, range},
 };
 
@@ -87,6 +87,28 @@ impl Model {
             }
         }
         self.convert(incidence, directions, basis, out);
+    }
+
+    /// True if [`Model::jones`] answers: the model does not depolarize.
+    pub fn is_coherent(&self) -> bool {
+        self.brdf.is_coherent()
+    }
+
+    /// Jones matrix (sr^-1/2) whose Mueller matrix is the BRDF, for one beam and one direction; zero
+    /// at and below the horizon, none if the model depolarizes.
+    pub fn jones(
+        &self,
+        incidence: &Incidence,
+        direction: &Direction,
+        basis: Basis,
+    ) -> Option<Jones> {
+        interrupt::check();
+        if !(incidence.is_above() && direction.is_above()) {
+            return self.is_coherent().then(Jones::default);
+        }
+        let jones = self.brdf.jones(incidence, direction)?;
+        let beams = beams(self.common().side, incidence, direction, self.mode);
+        Some(change_jones_basis(jones, self.brdf.native_basis(), basis, &beams))
     }
 
     /// Σ w R(β)ᵀ M over many directions of one beam, in the units of the BRDF (1/sr) times those of

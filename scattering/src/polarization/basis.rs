@@ -155,3 +155,12 @@ pub fn change_basis(m: Mueller, from: Basis, to: Basis, beams: &BeamPair) -> Mue
     let ([from_i, from_s], [to_i, to_s]) = (beams.frames(from), beams.frames(to));
     from_s.to(&to_s).mueller() * m * to_i.to(&from_i).mueller()
 }
+
+/// The Jones matrix `j`, given in basis `from`, in basis `to`, for these beams.
+pub(crate) fn change_jones_basis(j: Jones, from: Basis, to: Basis, beams: &BeamPair) -> Jones {
+    if from == to {
+        return j;
+    }
+    let ([from_i, from_s], [to_i, to_s]) = (beams.frames(from), beams.frames(to));
+    from_s.to(&to_s) * j * to_i.to(&from_i)
+}

@@ -122,7 +122,7 @@ impl ParameterKind {
 }
 
 /// The shortest text of `x` that reads back as `x`, with an exponent for large and small numbers.
-fn number_text(x: f64) -> String {
+pub fn number_text(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e6).contains(&x.abs()) { format!("{x:E}") } else { format!("{x}") }
 }
 
