@@ -226,7 +226,17 @@ impl PreparedMaterial {
     ///
     /// For tables that have none of the wavelengths, and values that the model cannot take.
     pub fn models(&self, wavelengths: &[f64]) -> Result<Vec<Model>, MaterialError> {
-        let all: Vec<Self> = wavelengths.iter().map(|nm| self.at(nm / 1000.0)).collect();
+        let lambdas: Vec<f64> = wavelengths.iter().map(|nm| nm / 1000.0).collect();
+        self.models_at(&lambdas)
+    }
+
+    /// [`PreparedMaterial::models`] at wavelengths in µm.
+    ///
+    /// # Errors
+    ///
+    /// As [`PreparedMaterial::models`].
+    pub fn models_at(&self, lambdas: &[f64]) -> Result<Vec<Model>, MaterialError> {
+        let all: Vec<Self> = lambdas.iter().map(|lambda| self.at(*lambda)).collect();
         self.check_tables(&all)?;
         all.par_iter().map(|material| Ok(material.model()?.0)).collect()
     }
@@ -277,6 +287,16 @@ impl PreparedMaterial {
             self.warn(std::iter::once(warning));
         }
         Ok(())
+    }
+
+    /// The parameters.
+    pub fn parameters(&self) -> &ModelParameters {
+        &self.parameters
+    }
+
+    /// Notices of the models that were built and evaluated so far.
+    pub fn notices(&self) -> &SharedNotices {
+        &self.met
     }
 
     /// Sound physics or NIST's numbers.

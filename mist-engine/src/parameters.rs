@@ -9,6 +9,7 @@
 //! The tree is persistent: a step keeps its state while later steps change theirs. Two states are
 //! equal if they build equal models; the comparison is exact.
 
+mod entries;
 mod error;
 mod films;
 mod formula;
@@ -22,6 +23,7 @@ mod state;
 mod table;
 mod text;
 
+pub use entries::ParameterEntry;
 pub use error::SetError;
 pub use input::ParameterInput;
 pub use path::ParameterPath;
@@ -51,6 +53,13 @@ impl ModelParameters {
     /// The class of the model.
     pub fn class(&self) -> &'static Class {
         self.root.class
+    }
+
+    /// All parameters in the order of their classes, each before those of the object that it holds.
+    ///
+    /// Setting the texts of those that are not defaults, in this order, makes equal parameters.
+    pub fn entries(&self) -> Vec<ParameterEntry> {
+        entries::of_object(&self.root)
     }
 
     /// Sets the parameter at `path`.

@@ -99,7 +99,7 @@ fn parameter(param: &Parameter) -> Value {
 }
 
 /// The kind of a parameter, and the base of its classes if it is an object.
-fn kind(kind: ParameterKind) -> (&'static str, Option<&'static str>) {
+pub fn kind(kind: ParameterKind) -> (&'static str, Option<&'static str>) {
     match kind {
         ParameterKind::Number(_) => ("number", None),
         ParameterKind::Integer(_) => ("integer", None),

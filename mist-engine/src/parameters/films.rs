@@ -90,6 +90,11 @@ impl FilmsState {
         self.files.iter().map(|(file, range)| (file.as_str(), *range))
     }
 
+    /// The texts of the films, in the order in which they grew.
+    pub(crate) fn texts(&self) -> &[String] {
+        &self.texts
+    }
+
     pub(crate) fn value(&self) -> Vec<Film> {
         self.films.clone()
     }

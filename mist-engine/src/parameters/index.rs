@@ -140,6 +140,26 @@ impl IndexState {
         }
     }
 
+    /// The text of its source, and the sub-parameters with their texts that make the rest.
+    pub(crate) fn texts(&self, default: String) -> (String, Vec<(String, String)>) {
+        let (text, replaced): (String, &[&str]) = if self.n.shares_origin(&self.k) {
+            (self.n.text(), &[])
+        } else if self.k.is_formula() && self.k.column() != 2 {
+            (self.k.text(), &["n"])
+        } else {
+            (default, &["n", "k"])
+        };
+        let mut settings = Vec::new();
+        for (name, part) in [("n", &self.n), ("k", &self.k)] {
+            if replaced.contains(&name) {
+                settings.push((name.to_owned(), part.column_text()));
+            }
+            let own = part.settings().into_iter();
+            settings.extend(own.map(|(setting, text)| (format!("{name}.{setting}"), text)));
+        }
+        (text, settings)
+    }
+
     pub(crate) fn remembers(&self) -> bool {
         self.held.is_some()
     }

@@ -9,13 +9,14 @@ use std::{
 use mist_format::number::number_prefix;
 use scattering::{
     optics::{AbscissaScale, RealFunction, TableInterpolation},
-    spec::ParameterKind,
+    spec::{ParameterKind, number_text},
 };
 
 use super::{
     error::SetError,
     input::{ParameterContext, ParameterInput},
     source::{ColumnInterpolation, TableSource},
+    text::vector,
 };
 
 /// Inputs from which a table was made.
@@ -114,6 +115,59 @@ impl TableState {
         self.source.file_range()
     }
 
+    /// The text of its source, from which [`TableState::replace`] or a new table reads it.
+    pub(crate) fn text(&self) -> String {
+        match (&self.source, &self.origin) {
+            (TableSource::Constant(values), _) => vector(values),
+            (_, origin) => origin.to_string(),
+        }
+    }
+
+    /// The text of the column that it takes from its source.
+    pub(crate) fn column_text(&self) -> String {
+        match &self.source {
+            TableSource::Constant(values) => {
+                number_text(values.get(self.column - 2).copied().unwrap_or(0.0))
+            }
+            TableSource::Rows { file, .. } | TableSource::Parametric { file, .. } => {
+                format!("{file}!{}", self.column)
+            }
+            TableSource::Formula { .. } => self.text(),
+        }
+    }
+
+    /// The column of its source, from 2.
+    pub(crate) fn column(&self) -> usize {
+        self.column
+    }
+
+    /// True if its source are expressions.
+    pub(crate) fn is_formula(&self) -> bool {
+        matches!(self.source, TableSource::Formula { .. })
+    }
+
+    /// True if both are columns of the same source.
+    pub(crate) fn shares_origin(&self, other: &Self) -> bool {
+        self.origin == other.origin && self.column + 1 == other.column
+    }
+
+    /// The sub-parameters that are not defaults, with their texts.
+    pub(crate) fn settings(&self) -> Vec<(String, String)> {
+        let ColumnInterpolation { axis, rise, parameters } = &self.reading;
+        let mut settings = Vec::new();
+        let mut push = |name: &str, text: &str| settings.push((name.to_owned(), text.to_owned()));
+        if *axis != AbscissaScale::default() {
+            push("interpolationx", axis_name(*axis));
+        }
+        if *rise != TableInterpolation::default() {
+            push("interpolationy", rise_name(*rise));
+        }
+        for (name, value) in parameters {
+            push(name, &number_text(*value));
+        }
+        settings
+    }
+
     pub(crate) fn value(&self) -> RealFunction {
         self.table.clone()
     }
@@ -169,6 +223,22 @@ fn axis(text: &str) -> Result<AbscissaScale, SetError> {
         "lin" => Ok(AbscissaScale::Linear),
         "log" => Ok(AbscissaScale::Log),
         _ => Err(SetError::value(format!("{text:?} is not an interpolation: write lin or log"))),
+    }
+}
+
+fn axis_name(axis: AbscissaScale) -> &'static str {
+    match axis {
+        AbscissaScale::Linear => "lin",
+        AbscissaScale::Log => "log",
+    }
+}
+
+fn rise_name(rise: TableInterpolation) -> &'static str {
+    match rise {
+        TableInterpolation::Linear => "lin",
+        TableInterpolation::Log => "log",
+        TableInterpolation::Spline => "spline",
+        TableInterpolation::LogSpline => "logspline",
     }
 }
 

@@ -4,7 +4,7 @@ use mist_format::{
     number::{integer_prefix, number_prefix, whole_number},
     suggestion::did_you_mean,
 };
-use scattering::{Family, Mode, registry};
+use scattering::{Family, Mode, registry, spec::number_text};
 
 use super::error::SetError;
 use crate::deviation::EngineDeviation;
@@ -60,4 +60,15 @@ pub(super) fn member(
         let all = format!("choose one of {}", choices.join(", "));
         SetError::value(problem).help(all).help_if(did_you_mean(name, choices))
     })
+}
+
+/// The shortest text of numbers as an element of a vector, such as `(1.5,0)`.
+pub(super) fn vector(values: &[f64]) -> String {
+    match values {
+        [x] => number_text(*x),
+        values => {
+            let texts: Vec<String> = values.iter().copied().map(number_text).collect();
+            format!("({})", texts.join(","))
+        }
+    }
 }
