@@ -97,6 +97,12 @@ impl Job {
         [loops, self.plan.outputs.iter().map(|output| output.label.as_str()).collect()]
     }
 
+    /// The titles of the columns of estimated errors, each with the position of the output that it
+    /// follows; those that follow no output are the last columns.
+    pub fn error_columns(&self) -> Vec<(&str, Option<usize>)> {
+        self.plan.error_columns().map(|column| (&*column.title, column.after)).collect()
+    }
+
     /// The colour files the program asks for: (what, name).
     pub fn colour(&self) -> Option<&ColourSection> {
         self.plan.colour.as_ref()

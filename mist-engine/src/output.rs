@@ -8,7 +8,7 @@ pub(crate) use not_finite::NotFinite;
 
 use mist_format::{
     expr::{Expr, OperandStack, Value},
-    number::push_list,
+    number::{push_list, whole_number},
     program::SourceText,
 };
 
@@ -137,7 +137,9 @@ pub struct TableLine {
     pub(crate) text: String,
     /// Positions of the columns of the loops in the text.
     cells: Vec<Range<usize>>,
+    coordinates: Vec<f64>,
     outputs: Vec<f64>,
+    errors: Vec<f64>,
 }
 
 impl TableLine {
@@ -146,9 +148,20 @@ impl TableLine {
         self.cells.iter().map(|cell| &self.text[cell.clone()])
     }
 
+    /// The values of the loops with all their bits, in the order of their columns; NaN for a text
+    /// that is not a number.
+    pub fn coordinates(&self) -> &[f64] {
+        &self.coordinates
+    }
+
     /// The outputs as they are before they are rounded.
     pub fn outputs(&self) -> &[f64] {
         &self.outputs
+    }
+
+    /// The estimated errors in the order of [`Job::error_columns`], before they are rounded.
+    pub fn errors(&self) -> &[f64] {
+        &self.errors
     }
 }
 
@@ -196,13 +209,15 @@ impl<'j> Outputs<'j> {
         for column in job.plan.errors.iter().flat_map(ErrorColumns::all) {
             self.scope.set_number(column.slot, error(column));
         }
-        let TableLine { text, cells, outputs } = line;
+        let TableLine { text, cells, coordinates, outputs, errors } = line;
         text.clear();
         cells.clear();
+        coordinates.clear();
         outputs.clear();
+        errors.clear();
         for cell in &step.columns {
             let start = text.len();
-            self.push_cell(text, cell)?;
+            coordinates.push(self.push_cell(text, cell)?);
             cells.push(start..text.len());
             text.push('\t');
         }
@@ -214,6 +229,7 @@ impl<'j> Outputs<'j> {
                 self.not_finite.add(at, step.index);
             }
         }
+        errors.extend(job.plan.error_columns().map(error));
         if !self.formats {
             return Ok(());
         }
@@ -248,18 +264,26 @@ impl<'j> Outputs<'j> {
         self.values = Some(step.values.clone());
     }
 
-    fn push_cell(&mut self, text: &mut String, cell: &LoopCell) -> Result<(), Fault> {
+    /// Appends the cell of a loop; gives its value.
+    fn push_cell(&mut self, text: &mut String, cell: &LoopCell) -> Result<f64, Fault> {
         match cell {
-            LoopCell::Text(cell) => text.push_str(cell),
+            LoopCell::Text(cell) => {
+                text.push_str(cell);
+                Ok(whole_number(cell).unwrap_or(f64::NAN))
+            }
+            LoopCell::Number(x, cell) => {
+                text.push_str(cell);
+                Ok(*x)
+            }
             LoopCell::Expression(expr) => {
                 let value: Value = self
                     .scope
                     .value(expr, &mut self.stack)
                     .map_err(|error| Box::new(error.diagnostic(std::iter::empty())))?;
                 push_list(text, value.as_slice(), COLUMN_DIGITS);
+                Ok(value.as_slice().first().copied().unwrap_or(f64::NAN))
             }
         }
-        Ok(())
     }
 
     /// The number that `expr`, written at `place`, gives now.

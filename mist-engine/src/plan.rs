@@ -270,6 +270,13 @@ impl Plan {
         integrals.chain(errors).chain(outputs)
     }
 
+    /// The columns of errors in the order in which they stand: behind their outputs, then the others.
+    pub(crate) fn error_columns(&self) -> impl Iterator<Item = &ErrorColumn> {
+        let behind = (0..self.outputs.len())
+            .flat_map(|at| self.errors.iter().flat_map(move |errors| errors.after(at)));
+        behind.chain(self.errors.iter().flat_map(ErrorColumns::last))
+    }
+
     /// The text of the last entry that gives `slot`.
     pub(crate) fn variable_text(&self, slot: u32) -> Option<&SourceText> {
         let entry = self.entries.iter().rev().find(|entry| entry.slot == Some(slot))?;

@@ -113,6 +113,8 @@ pub(crate) type LoopCells = SmallVec<[LoopCell; 4]>;
 pub(crate) enum LoopCell {
     /// Text as it is; a short one, as nearly all are, is copied without counting who holds it.
     Text(SmolStr),
+    /// A number, and the text that shows it.
+    Number(f64, SmolStr),
     /// An expression of a LIST file, evaluated with the new variables.
     Expression(Arc<Expr>),
 }
@@ -120,7 +122,7 @@ pub(crate) enum LoopCell {
 impl LoopCell {
     /// The number `x`.
     pub(crate) fn of(x: f64) -> Self {
-        Self::Text(general(x, COLUMN_DIGITS).into())
+        Self::Number(x, general(x, COLUMN_DIGITS).into())
     }
 }
 

@@ -135,9 +135,9 @@ impl PreparedValue {
         };
         let text = || number::loop_text(x);
         let cell = match shows {
-            true if is_text => LoopCell::Text(text().into()),
+            true if is_text => LoopCell::Number(x, text().into()),
             true => LoopCell::of(x),
-            false => LoopCell::Text("".into()),
+            false => LoopCell::Number(x, "".into()),
         };
         let content = number
             .map_or_else(|| EntryContent::Text(text().into()), |x| EntryContent::Value(x.into()));
