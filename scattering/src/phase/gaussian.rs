@@ -1,9 +1,11 @@
 //! Gaussian of the scattering angle on an isotropic background.
 //!
-//! $$ p = \frac{(1-b)\,e^{-\theta^2/2w^2} + b}{2\pi N} $$
+//! $$ p = \frac{(1-b)\,e^{-\theta^2/2w^2} + b}{2\pi N} \qquad (1) $$
 //!
-//! w is the width (given in degrees), b the background; N makes the integral over all directions
-//! 1. `--compat` takes N from a series for small w.
+//! $$ N = 2b + (1-b)\int_0^\pi e^{-\theta^2/2w^2}\sin\theta\,d\theta \qquad (2) $$
+//!
+//! w is the width (given in degrees), b the background; with N the integral over all directions is
+//! 1. `--compat` takes the integral in N from a series for small w.
 
 use std::f64::consts::PI;
 
@@ -41,6 +43,7 @@ pub const SPEC: Spec<dyn Phase> = Spec {
         let b = node.number("background");
         let compat = node.reproduces(Defect::GaussianPhaseSeries);
         let lobe = if compat { series(width) } else { solid_angle(width) };
+        // 1/2πN (2).
         let norm = 1.0 / (2.0 * PI * (2.0 * b + (1.0 - b) * lobe));
         let falloff = -0.5 / (width * width);
         Ok(Box::new(GaussianPhase { peak: (1.0 - b) * norm, background: b * norm, falloff }))
@@ -50,14 +53,18 @@ pub const SPEC: Spec<dyn Phase> = Spec {
 /// A Gaussian lobe on a background.
 #[derive(Clone, Copy, Debug)]
 pub struct GaussianPhase {
+    /// (1 − b)/2πN.
     peak: f64,
+    /// b/2πN.
     background: f64,
+    /// −1/2w², w in radians.
     falloff: f64,
 }
 
 impl Phase for GaussianPhase {
     fn at_cosine(&self, cos: f64) -> f64 {
         let theta = cos.clamp(-1.0, 1.0).acos();
+        // (1)
         self.peak * (self.falloff * theta * theta).exp() + self.background
     }
 }

@@ -1,10 +1,11 @@
 //! Henyey–Greenstein phase functions with one lobe and with two.
 //!
-//! $$ p_g = \frac{1 - g^2}{4\pi\,(1 + g^2 - 2g\cos\theta)^{3/2}}, \qquad
-//!    p = \tfrac12(1+c)\,p_{g_1} + \tfrac12(1-c)\,p_{g_2} $$
+//! $$ p_g = \frac{1 - g^2}{4\pi\,(1 + g^2 - 2g\cos\theta)^{3/2}} \qquad (1) $$
+//!
+//! $$ p = \left|\tfrac12(1+c)\,p_{g_1} + \tfrac12(1-c)\,p_{g_2}\right| \qquad (2) $$
 //!
 //! g is the mean cosine of the scattering angle, |g| < 1. With |c| ≤ 1 the sum is a density; for
-//! other c its absolute value is taken, which is no density any more.
+//! other c its absolute value does not integrate to 1.
 //!
 //! L. G. Henyey and J. L. Greenstein, Astrophys. J. 93, 70 (1941).
 
@@ -86,6 +87,7 @@ impl HenyeyGreenstein {
 impl Phase for HenyeyGreenstein {
     fn at_cosine(&self, cos: f64) -> f64 {
         let d = 1.0 + self.g * self.g - 2.0 * self.g * cos;
+        // (1)
         self.norm / (d * d.sqrt())
     }
 }
@@ -95,13 +97,15 @@ impl Phase for HenyeyGreenstein {
 pub struct DoubleHenyeyGreenstein {
     first: HenyeyGreenstein,
     second: HenyeyGreenstein,
+    /// (1 + c)/2 and (1 − c)/2.
     shares: (f64, f64),
 }
 
 impl Phase for DoubleHenyeyGreenstein {
     fn at_cosine(&self, cos: f64) -> f64 {
-        let (a, b) = self.shares;
-        (a * self.first.at_cosine(cos) + b * self.second.at_cosine(cos)).abs()
+        let (share_1, share_2) = self.shares;
+        // (2)
+        (share_1 * self.first.at_cosine(cos) + share_2 * self.second.at_cosine(cos)).abs()
     }
 }
 

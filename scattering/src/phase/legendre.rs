@@ -2,7 +2,7 @@
 //!
 //! $$ p = \frac{1}{4\pi} \sum_{l=0}^{5} (2l+1)\,c_l\,P_l(\cos\theta) $$
 //!
-//! c_0 = 1 normalizes it, c_1 is the mean cosine. Nothing keeps a truncated series positive.
+//! c_0 = 1 normalizes it, c_1 is the mean cosine. A truncated series can be negative.
 //!
 //! S. Chandrasekhar, *Radiative Transfer* (Dover, 1960), §3.
 
@@ -50,17 +50,19 @@ pub const SPEC: Spec<dyn Phase> = Spec {
 /// A Legendre series.
 #[derive(Clone, Copy, Debug)]
 pub struct LegendrePhase {
-    /// (2l+1) c_l with the norm.
+    /// (2l+1) c_l/4π.
     terms: [f64; 6],
 }
 
 impl Phase for LegendrePhase {
     fn at_cosine(&self, cos: f64) -> f64 {
-        let (mut below, mut p, mut sum) = (0.0, 1.0, 0.0);
+        // P_(l−1) and P_l.
+        let (mut previous, mut legendre, mut sum) = (0.0, 1.0, 0.0);
         for (l, term) in self.terms.iter().enumerate() {
-            sum += term * p;
+            sum += term * legendre;
             let l = l as f64;
-            (below, p) = (p, ((2.0 * l + 1.0) * cos * p - l * below) / (l + 1.0));
+            let next = ((2.0 * l + 1.0) * cos * legendre - l * previous) / (l + 1.0);
+            (previous, legendre) = (legendre, next);
         }
         sum
     }

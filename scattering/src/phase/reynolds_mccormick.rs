@@ -1,11 +1,15 @@
 //! Reynolds–McCormick phase functions: Henyey–Greenstein with a free exponent.
 //!
-//! $$ p = K\,(1 + g^2 - 2g\cos\theta)^{-(\alpha+1)}, \qquad
-//!    K = \frac{\alpha g}{\pi}\,\frac{(1-g^2)^{2\alpha}}{(1+g)^{2\alpha} - (1-g)^{2\alpha}} $$
+//! $$ p_g = K\,(1 + g^2 - 2g\cos\theta)^{-(\alpha+1)} \qquad (1) $$
 //!
-//! |g| < 1; α = 1/2 is Henyey–Greenstein. With y = 2α artanh g the norm is
-//! K = (g/artanh g)(1−g²)^α (y/sinh y)/4π, which has no singular cases. The form with two lobes is
-//! ½(1+c)p_g + ½(1−c)p_{−g}.
+//! $$ K = \frac{\alpha g}{\pi}\,\frac{(1-g^2)^{2\alpha}}{(1+g)^{2\alpha} - (1-g)^{2\alpha}}
+//!    = \frac{1}{4\pi}\,\frac{g}{\mathrm{artanh}\,g}\,(1-g^2)^\alpha\,\frac{y}{\sinh y}, \quad
+//!    y = 2\alpha\,\mathrm{artanh}\,g \qquad (2) $$
+//!
+//! $$ p = \left|\tfrac12(1+c)\,p_g + \tfrac12(1-c)\,p_{-g}\right| \qquad (3) $$
+//!
+//! |g| < 1; α = 1/2 is Henyey–Greenstein. The second form of K has no singular cases. (3) is the
+//! form with two lobes.
 //!
 //! L. O. Reynolds and N. J. McCormick, JOSA 70, 1206 (1980).
 
@@ -62,6 +66,7 @@ const LOBE: &[Parameter] = &[
 pub struct ReynoldsMcCormick {
     g: f64,
     alpha: f64,
+    /// K.
     norm: f64,
 }
 
@@ -77,14 +82,14 @@ impl ReynoldsMcCormick {
     }
 }
 
-/// K for which ∫ p dΩ = 1.
+/// K for which ∫ p dΩ = 1, by the second form of (2).
 fn norm(g: f64, alpha: f64) -> f64 {
     let over = |x: f64, f: f64| if x == 0.0 { 1.0 } else { x / f };
     let y = 2.0 * alpha * g.atanh();
     0.25 * FRAC_1_PI * over(g, g.atanh()) * (1.0 - g * g).powf(alpha) * over(y, y.sinh())
 }
 
-/// K with g² in place of g in the denominator.
+/// K by the first form of (2) with g² in place of g in the denominator.
 fn compat_norm(g: f64, alpha: f64) -> f64 {
     let (g2, twice) = (g * g, 2.0 * alpha);
     alpha * g / PI * (1.0 - g2).powf(twice) / ((1.0 + g2).powf(twice) - (1.0 - g2).powf(twice))
@@ -92,6 +97,7 @@ fn compat_norm(g: f64, alpha: f64) -> f64 {
 
 impl Phase for ReynoldsMcCormick {
     fn at_cosine(&self, cos: f64) -> f64 {
+        // (1)
         self.norm * (1.0 + self.g * self.g - 2.0 * self.g * cos).powf(-self.alpha - 1.0)
     }
 }
@@ -100,13 +106,15 @@ impl Phase for ReynoldsMcCormick {
 #[derive(Clone, Copy, Debug)]
 pub struct DoubleReynoldsMcCormick {
     lobe: ReynoldsMcCormick,
+    /// (1 + c)/2 and (1 − c)/2.
     shares: (f64, f64),
 }
 
 impl Phase for DoubleReynoldsMcCormick {
     fn at_cosine(&self, cos: f64) -> f64 {
-        let (a, b) = self.shares;
-        (a * self.lobe.at_cosine(cos) + b * self.lobe.at_cosine(-cos)).abs()
+        let (share_1, share_2) = self.shares;
+        // (3): p_{−g}(θ) = p_g(π − θ).
+        (share_1 * self.lobe.at_cosine(cos) + share_2 * self.lobe.at_cosine(-cos)).abs()
     }
 }
 

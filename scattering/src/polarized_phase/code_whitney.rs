@@ -1,10 +1,12 @@
 //! Phase matrix with the polarization of Rayleigh scattering, scaled.
 //!
-//! With c = cos θ and c_f = cos[θ(1 + 3.13 s e^{−7θ/π})], the elements over p(θ) are
+//! With c = cos θ, the elements over p(θ) are
 //!
 //! $$ P_{00} = P_{11} = 1, \quad P_{01} = P_{10} = -p_l\frac{1-c^2}{1+c^2}, \quad
 //!    P_{22} = P_{33} = \frac{2c}{1+c^2}, \quad
-//!    P_{32} = -P_{23} = p_c\frac{1-c_f^2}{1+c_f^2} $$
+//!    P_{32} = -P_{23} = p_c\frac{1-c_f^2}{1+c_f^2} \qquad (1) $$
+//!
+//! $$ c_f = \cos[\theta\,(1 + 3.13\,s\,e^{-7\theta/\pi})] \qquad (2) $$
 //!
 //! p_l (`plmax`) and p_c (`pcmax`) are the greatest linear and circular polarizations, s skews the
 //! circular one. Light has no more polarization than intensity where
@@ -56,18 +58,27 @@ pub const SPEC: Spec<dyn PolarizedPhase> = Spec {
 /// A phase matrix with Rayleigh-like polarization.
 struct CodeWhitney {
     scalar: ScalarPhase,
+    /// p_l.
     linear: f64,
+    /// p_c.
     circular: f64,
+    /// s.
     skew: f64,
 }
 
 impl PolarizedPhase for CodeWhitney {
     fn at_cosine(&self, cos: f64) -> Mueller {
-        let p = self.scalar.phase.at_cosine(cos);
-        let l = -p * self.linear * polarization(cos);
-        let d = p * 2.0 * cos / (1.0 + cos * cos);
-        let v = p * self.circular * polarization(self.skewed(cos));
-        Mueller([[p, l, 0.0, 0.0], [l, p, 0.0, 0.0], [0.0, 0.0, d, -v], [0.0, 0.0, v, d]])
+        // (1)
+        let p00 = self.scalar.phase.at_cosine(cos);
+        let p10 = -p00 * self.linear * polarization(cos);
+        let p22 = p00 * 2.0 * cos / (1.0 + cos * cos);
+        let p32 = p00 * self.circular * polarization(self.skewed(cos));
+        Mueller([
+            [p00, p10, 0.0, 0.0],
+            [p10, p00, 0.0, 0.0],
+            [0.0, 0.0, p22, -p32],
+            [0.0, 0.0, p32, p22],
+        ])
     }
 
     fn absorption(&self) -> f64 {
@@ -80,7 +91,7 @@ impl PolarizedPhase for CodeWhitney {
 }
 
 impl CodeWhitney {
-    /// True if no light gets more polarization than intensity, looked at every degree.
+    /// True if no light gets more polarization than intensity, checked at every degree.
     fn is_realizable(&self) -> bool {
         (0..=180).all(|degree| {
             let cos = f64::from(degree).to_radians().cos();
@@ -91,7 +102,7 @@ impl CodeWhitney {
         })
     }
 
-    /// cos of the skewed angle.
+    /// c_f, the cosine of the skewed angle. (2)
     fn skewed(&self, cos: f64) -> f64 {
         if self.skew == 0.0 {
             return cos;

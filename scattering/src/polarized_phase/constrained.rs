@@ -1,8 +1,9 @@
 //! Phase matrix whose elements are splines through given values.
 //!
 //! Every element over p(θ) is a cubic through its values at 0°, 60°, 120° and 180° with
-//! continuous curvature and slope 0 at both ends. What symmetry demands at 0° and 180° is built
-//! in: P10 and P23 vanish there and P22 is P11 and −P11. Realizability is up to the values.
+//! continuous curvature and slope 0 at both ends. The symmetry at 0° and 180° is built in: P10 and
+//! P23 vanish there, and P22 is P11 at 0° and −P11 at 180°. The values decide if the matrix is
+//! realizable.
 //!
 //! H. C. van de Hulst, *Light Scattering by Small Particles* (Wiley, 1957), 5.2.
 

@@ -1,7 +1,9 @@
 //! Phase matrix of a suspension of homogeneous spheres of many sizes.
 //!
-//! $$ P = \frac{\sum_j w_j\,M(\mathrm{diag}(S_2, S_1))_j}{k^2 \sum_j w_j C_{sca,j}}, \qquad
-//!    \kappa_s = \sum_j w_j C_{sca,j}, \qquad \kappa_a = \sum_j w_j (C_{ext} - C_{sca})_j $$
+//! $$ P = \frac{\sum_j w_j\,M(\mathrm{diag}(S_2, S_1))_j}{k^2 \sum_j w_j C_{sca,j}} \qquad (1) $$
+//!
+//! $$ \kappa_s = \sum_j w_j C_{sca,j}, \quad
+//!    \kappa_a = \sum_j w_j (C_{ext} - C_{sca})_j \qquad (2) $$
 //!
 //! over the diameters d_j = start·(1+step)^j ≤ end with w_j = n(d_j) d_j·step. k is the wave number
 //! in the medium. `--compat` divides both coefficients by the square of the medium's index.
@@ -54,13 +56,15 @@ const MOST_TERMS: usize = 30_000_000;
 
 /// A suspension of spheres of many sizes.
 struct DistributedMie {
-    /// Spheres with their numbers per volume.
+    /// w_j, 1/µm³, and the series of the sphere j.
     spheres: Vec<(f64, MieSeries)>,
     /// Terms of the longest series.
     longest: usize,
     /// 1/(k² Σ w C_sca).
     norm: f64,
+    /// κ_a, 1/µm.
     absorption: f64,
+    /// κ_s, 1/µm.
     scattering: f64,
 }
 
@@ -73,17 +77,18 @@ impl DistributedMie {
         let (mut spheres, mut longest) = (Vec::new(), 0);
         let (mut scattering, mut absorption) = (0.0, 0.0);
         for (d, width) in ladder(node, k)? {
-            let number = numbers.density(d) * width;
-            if number == 0.0 {
+            let weight = numbers.density(d) * width;
+            if weight == 0.0 {
                 continue;
             }
             let sphere = Mie::homogeneous(node, around, m, 0.5 * d);
             let cross = sphere.cross_sections().expect("a Mie sphere has cross-sections");
-            scattering += number * cross.scattering;
+            // (2)
+            scattering += weight * cross.scattering;
             // Lossless spheres absorb a rounding error.
-            absorption += number * (cross.extinction - cross.scattering).max(0.0);
+            absorption += weight * (cross.extinction - cross.scattering).max(0.0);
             longest = longest.max(sphere.series().len());
-            spheres.push((number, sphere.into_series()));
+            spheres.push((weight, sphere.into_series()));
         }
         if !(scattering > 0.0) {
             return Err(ParameterError::new(
@@ -125,13 +130,15 @@ fn ladder(
 impl PolarizedPhase for DistributedMie {
     fn at_cosine(&self, cos: f64) -> Mueller {
         let angular: Vec<_> = AngularFunctions::new(cos).take(self.longest).collect();
+        // The sums over w_j of |S₁|², |S₂|² and S₂S₁*, of which the elements of M consist.
         let (mut across, mut along, mut product) = (0.0, 0.0, Complex64::ZERO);
-        for (number, series) in &self.spheres {
+        for (weight, series) in &self.spheres {
             let (s1, s2) = series.amplitudes_from(&angular);
-            across += number * s1.norm_sqr();
-            along += number * s2.norm_sqr();
-            product += number * s2 * s1.conj();
+            across += weight * s1.norm_sqr();
+            along += weight * s2.norm_sqr();
+            product += weight * s2 * s1.conj();
         }
+        // (1)
         let (p, l) = (0.5 * (along + across), 0.5 * (along - across));
         let (d, v) = (product.re, product.im);
         Mueller([[p, l, 0.0, 0.0], [l, p, 0.0, 0.0], [0.0, 0.0, d, v], [0.0, 0.0, -v, d]])

@@ -1,6 +1,8 @@
 //! Up to four kinds of particles together: coefficients add, P is the mean by scattering.
 //!
-//! $$ \kappa = \sum_j \kappa_j, \qquad P = \sum_j \kappa_{s,j}P_j \Big/ \sum_j \kappa_{s,j} $$
+//! $$ \kappa = \sum_j \kappa_j \qquad (1) $$
+//!
+//! $$ P = \sum_j \kappa_{s,j}P_j \Big/ \sum_j \kappa_{s,j} \qquad (2) $$
 
 use super::{FAMILY, PolarizedPhase};
 use crate::{
@@ -40,17 +42,19 @@ struct ParticleMixture(Vec<Box<dyn PolarizedPhase>>);
 
 impl PolarizedPhase for ParticleMixture {
     fn at_cosine(&self, cos: f64) -> Mueller {
-        let whole = self.scattering();
-        if whole == 0.0 {
+        let kappa_s = self.scattering();
+        if kappa_s == 0.0 {
             return self.0[0].at_cosine(cos);
         }
         let mut sum = Mueller::ZERO;
         for kind in self.0.iter().filter(|kind| kind.scattering() > 0.0) {
-            sum += kind.at_cosine(cos) * (kind.scattering() / whole);
+            // A term of (2).
+            sum += kind.at_cosine(cos) * (kind.scattering() / kappa_s);
         }
         sum
     }
 
+    // (1) for κ_a and κ_s.
     fn absorption(&self) -> f64 {
         self.0.iter().map(|kind| kind.absorption()).sum()
     }

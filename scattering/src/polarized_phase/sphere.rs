@@ -1,7 +1,8 @@
 //! Phase matrix of a suspension of equal spheres.
 //!
-//! $$ P = \frac{M(\mathrm{diag}(S_2, S_1))}{k^2 C_{sca}}, \qquad \kappa_s = N C_{sca}, \qquad
-//!    \kappa_a = N (C_{ext} - C_{sca}) $$
+//! $$ P = \frac{M(\mathrm{diag}(S_2, S_1))}{k^2 C_{sca}} \qquad (1) $$
+//!
+//! $$ \kappa_s = N C_{sca}, \quad \kappa_a = N (C_{ext} - C_{sca}) \qquad (2) $$
 //!
 //! k is the wave number in the medium, N (`volume_density`) the number of spheres per volume.
 //! `--compat` takes k in vacuum, C_sca from 1000 rectangles and κ_a from the forward amplitude.
@@ -60,7 +61,9 @@ struct Spheres {
     particle: Box<dyn Scatterer>,
     /// 1/(k² C_sca).
     norm: f64,
+    /// κ_a, 1/µm.
     absorption: f64,
+    /// κ_s, 1/µm.
     scattering: f64,
 }
 
@@ -73,6 +76,7 @@ impl Spheres {
             // Lossless spheres absorb a rounding error.
             (k0 * particle.medium().re, cross, 0.0)
         };
+        // (2)
         Self {
             norm: 1.0 / (k * k * cross.scattering),
             absorption: (density * (cross.extinction - cross.scattering)).max(least),
@@ -107,6 +111,7 @@ fn compat_cross_sections(particle: &dyn Scatterer, k: f64) -> CrossSections {
 
 impl PolarizedPhase for Spheres {
     fn at_cosine(&self, cos: f64) -> Mueller {
+        // (1)
         amplitudes(&*self.particle, cos).mueller() * self.norm
     }
 

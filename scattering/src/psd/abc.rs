@@ -37,13 +37,16 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 /// An ABC spectrum.
 #[derive(Clone, Debug)]
 pub struct Abc {
+    /// A, µm⁴.
     a: f64,
+    /// B², µm².
     b2: f64,
+    /// −C/2.
     power: AbcExponent,
 }
 
-/// An exponent; the usual ones are multiples of a quarter, for which two square roots and a few
-/// products do.
+/// An exponent; the usual ones are multiples of a quarter, which two square roots and a few
+/// products evaluate.
 #[derive(Clone, Copy, Debug)]
 enum AbcExponent {
     Quarters(i32),
@@ -75,7 +78,8 @@ impl AbcExponent {
 
 impl Psd for Abc {
     fn density(&self, fx: f64, fy: f64) -> f64 {
-        self.a * self.power.of(1.0 + self.b2 * (fx * fx + fy * fy))
+        let f2 = fx * fx + fy * fy;
+        self.a * self.power.of(1.0 + self.b2 * f2)
     }
 }
 

@@ -1,6 +1,7 @@
-//! Equal features of elliptic outline at random places: the spectrum that plateaus and dimples share.
+//! Equal features of elliptic outline at random places: the spectrum of plateaus and of dimples.
 //!
-//! $$ \mathrm{PSD} = D \left( c V \frac{J_n(2\pi u)}{(2\pi u)^n} \right)^2,\quad u^2 = \left(\frac{f_x a_x}{2}\right)^2 + \left(\frac{f_y a_y}{2}\right)^2 $$
+//! $$ \mathrm{PSD} = D \left( c V \frac{J_n(2\pi u)}{(2\pi u)^n} \right)^2,\quad
+//!    u^2 = \left(\frac{f_x a_x}{2}\right)^2 + \left(\frac{f_y a_y}{2}\right)^2 $$
 //!
 //! a_x, a_y are the full axes of the ellipse, V the volume of one feature, D the number per area;
 //! c = 2ⁿ n! makes the bracket V at zero frequency.
@@ -24,6 +25,7 @@ pub(super) const ELLIPTIC: &[Parameter] = &[
 /// Features whose transform is J_N(z)/z^N of an ellipse.
 #[derive(Clone, Debug)]
 pub struct Elliptic<const N: usize> {
+    /// a_x/2 and a_y/2, µm.
     semi_axes: (f64, f64),
     /// D (c V)², µm⁴.
     peak: f64,

@@ -1,6 +1,7 @@
 //! Plateaus with elliptic outline at random places.
 //!
-//! $$ \mathrm{PSD} = D \left( h \frac{a_x a_y}{4} \frac{J_1(2\pi u)}{u} \right)^2,\quad u^2 = \left(\frac{f_x a_x}{2}\right)^2 + \left(\frac{f_y a_y}{2}\right)^2 $$
+//! $$ \mathrm{PSD} = D \left( h \frac{a_x a_y}{4} \frac{J_1(2\pi u)}{u} \right)^2,\quad
+//!    u^2 = \left(\frac{f_x a_x}{2}\right)^2 + \left(\frac{f_y a_y}{2}\right)^2 $$
 //!
 //! a_x, a_y are the full axes of the ellipse, h its height (or depth), D the number per area.
 //!

@@ -41,20 +41,23 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 
 /// Square of the smallest frequency that is distinguished from 0, 1/µm².
 const LEAST_SQUARED: f64 = 1e-12;
-/// Exponents beyond this are no surface's; their powers overflow.
+/// The largest exponent in magnitude: no surface has a larger one, and its powers overflow.
 const STEEPEST: f64 = 30.0;
 
 /// A power law.
 #[derive(Clone, Debug)]
 pub struct Fractal {
+    /// A, µm^(4−n).
     a: f64,
+    /// −n/2.
     power: f64,
-    /// f² counts as this at least.
+    /// The smallest f², 1/µm².
     least: f64,
 }
 
 impl Psd for Fractal {
     fn density(&self, fx: f64, fy: f64) -> f64 {
-        self.a * (fx * fx + fy * fy).max(self.least).powf(self.power)
+        let f2 = (fx * fx + fy * fy).max(self.least);
+        self.a * f2.powf(self.power)
     }
 }

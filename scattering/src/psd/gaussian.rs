@@ -40,13 +40,16 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 /// A Gaussian spectrum.
 #[derive(Clone, Debug)]
 pub struct GaussianPsd {
+    /// π(σℓ)², µm⁴.
     peak: f64,
+    /// (πℓ)², µm².
     fall: f64,
 }
 
 impl Psd for GaussianPsd {
     fn density(&self, fx: f64, fy: f64) -> f64 {
-        self.peak * (-self.fall * (fx * fx + fy * fy)).exp()
+        let f2 = fx * fx + fy * fy;
+        self.peak * (-self.fall * f2).exp()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Dimples of elliptic outline and parabolic depth at random places.
 //!
-//! $$ \mathrm{PSD} = D \left( h \frac{a_x a_y}{4} \frac{\pi J_2(2\pi u)}{(\pi u)^2} \right)^2,\quad u^2 = \left(\frac{f_x a_x}{2}\right)^2 + \left(\frac{f_y a_y}{2}\right)^2 $$
+//! $$ \mathrm{PSD} = D \left( h \frac{a_x a_y}{4} \frac{\pi J_2(2\pi u)}{(\pi u)^2} \right)^2,\quad
+//!    u^2 = \left(\frac{f_x a_x}{2}\right)^2 + \left(\frac{f_y a_y}{2}\right)^2 $$
 //!
 //! The depth is h (1 − (2x/a_x)² − (2y/a_y)²) inside the ellipse with full axes a_x, a_y; D is the
 //! number per area.

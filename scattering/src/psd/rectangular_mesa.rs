@@ -43,7 +43,9 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 /// Rectangular plateaus.
 #[derive(Clone, Debug)]
 pub struct RectangularMesa {
+    /// π l_x and π l_y, µm.
     pi_sides: (f64, f64),
+    /// D (h l_x l_y)², µm⁴.
     peak: f64,
 }
 

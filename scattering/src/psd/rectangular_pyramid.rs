@@ -49,7 +49,9 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 /// Four-sided pyramids.
 #[derive(Clone, Debug)]
 pub struct RectangularPyramid {
+    /// l_x and l_y, µm.
     sides: (f64, f64),
+    /// D (h l_x l_y/2)², µm⁴: the mean of each pair of faces covers half of the rectangle.
     peak: f64,
     takes_limits: bool,
 }
@@ -70,7 +72,7 @@ impl Psd for RectangularPyramid {
             let limit = (2.0 * y - (2.0 * y).sin()) / (2.0 * y * y * y);
             return self.peak * limit * limit;
         }
-        // Opposite faces are complex conjugates.
+        // The means over two neighbouring faces; opposite faces are complex conjugates.
         let right = triangle::tapered(0.0, [x - y, x + y]);
         let back = triangle::tapered(0.0, [x + y, y - x]);
         self.peak * (right + back).re.powi(2)

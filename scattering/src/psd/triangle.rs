@@ -1,10 +1,15 @@
 //! Fourier integrals over a triangle, free of removable singularities.
 //!
-//! Hermite and Genocchi: the mean of $e^{i a}$ over a triangle on which the phase a is linear is
-//! twice the divided difference of the exponential at the three phases of the corners,
-//! $2\,[i a_0, i a_1, i a_2]\exp$; with a weight that falls linearly from 1 at corner 0 to 0 at
-//! the others it is $2\,[i a_0, i a_0, i a_1, i a_2]\exp$. The closed forms of plateaus and
-//! pyramids are these differences written out, with a 0/0 on every line normal to an edge.
+//! By the formula of Hermite and Genocchi, the mean of $e^{i a}$ over a triangle on which the phase
+//! a is linear is twice the divided difference of the exponential at the three phases of the
+//! corners; λ falls linearly from 1 at corner 0 to 0 at the others:
+//!
+//! $$ \langle e^{ia} \rangle = 2\,[i a_0, i a_1, i a_2]\exp \qquad (1) $$
+//!
+//! $$ \langle \lambda\,e^{ia} \rangle = 2\,[i a_0, i a_0, i a_1, i a_2]\exp \qquad (2) $$
+//!
+//! The closed forms of plateaus and pyramids are these differences written out, with a 0/0 on every
+//! line normal to an edge.
 //!
 //! C. de Boor, *Divided differences*, Surveys in Approximation Theory 1, 46 (2005).
 
@@ -12,13 +17,13 @@ use num_complex::Complex64;
 
 use super::sinc;
 
-/// Mean of exp(i a) over a triangle with these phases at its corners.
+/// Mean of exp(i a) over a triangle with these phases at its corners. (1)
 pub(super) fn flat(mut phases: [f64; 3]) -> Complex64 {
     phases.sort_by(f64::total_cmp);
     2.0 * difference(&phases)
 }
 
-/// The same with a weight that falls from 1 at the corner `top` to 0 at the corners `foot`.
+/// The same with a weight that falls from 1 at the corner `top` to 0 at the corners `foot`. (2)
 pub(super) fn tapered(top: f64, foot: [f64; 2]) -> Complex64 {
     let mut phases = [top, top, foot[0], foot[1]];
     phases.sort_by(f64::total_cmp);

@@ -43,7 +43,9 @@ pub const SPEC: Spec<dyn Psd> = Spec {
 /// Triangular plateaus.
 #[derive(Clone, Debug)]
 pub struct TriangularMesa {
+    /// Length of a side, µm.
     side: f64,
+    /// D times the squared volume of a plateau, µm⁴.
     peak: f64,
 }
 

@@ -6,8 +6,9 @@
 //! λ falls from 1 at the centre to 0 at the edge; h is the height (or depth), D the number per
 //! area. The integrals are evaluated as divided differences, without the singular lines of the
 //! closed form. NIST's library returns 0 wherever its denominator
-//! 4π³|XY(3X⁴ − 10X²Y² + 3Y⁴)|, X and Y the frequencies times the side, is below 10⁻⁶ and it has no limit
-//! ([`Defect::PyramidLines`]): on the lines f_x = ±√3 f_y, and nearly everywhere for small pyramids.
+//! 4π³|XY(3X⁴ − 10X²Y² + 3Y⁴)|, X and Y the frequencies times the side, is below 10⁻⁶ and it has
+//! no limit ([`Defect::PyramidLines`]): on the lines f_x = ±√3 f_y, and nearly everywhere for small
+//! pyramids.
 //!
 //! C. de Boor, *Divided differences*, Surveys in Approximation Theory 1, 46 (2005).
 
@@ -47,10 +48,12 @@ pub const SPEC: Spec<dyn Psd> = Spec {
     },
 };
 
-/// Three-sided pyramids; `peak` is the density at zero frequency.
+/// Three-sided pyramids.
 #[derive(Clone, Debug)]
 pub struct TriangularPyramid {
+    /// Length of a side, µm.
     side: f64,
+    /// D h² times the squared area of a face, µm⁴.
     peak: f64,
     dark_lines: bool,
 }

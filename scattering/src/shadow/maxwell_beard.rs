@@ -41,15 +41,19 @@ fn scale(node: &ParameterNode, name: &str) -> Result<f64, ParameterError> {
 }
 
 struct MaxwellBeard {
+    /// Ω, rad.
     omega: f64,
+    /// τ, rad.
     tau: f64,
 }
 
 impl Shadow for MaxwellBeard {
     fn fraction(&self, incidence: &Incidence, direction: &Direction) -> f64 {
         let h = direction.k() - incidence.k();
-        let tilt = h.x.hypot(h.y).atan2(h.z) / self.omega;
+        let theta_n = h.x.hypot(h.y).atan2(h.z);
+        // |h| = 2 cos β.
         let beta = (0.5 * h.length()).min(1.0).acos();
-        (1.0 + tilt * (-2.0 * beta / self.tau).exp()) / (1.0 + tilt)
+        let ratio = theta_n / self.omega;
+        (1.0 + ratio * (-2.0 * beta / self.tau).exp()) / (1.0 + ratio)
     }
 }

@@ -1,18 +1,24 @@
 //! Shadowing of an anisotropic Gaussian surface for a known facet slope.
 //!
-//! $$ G = \frac{1}{1+\Lambda_i+\Lambda_s}, \qquad
-//!    \Lambda = \tfrac12\left[\frac{e^{-x^2}}{\sqrt\pi\,x} - \mathrm{erfc}\,x\right], \qquad
-//!    x = \frac{\cot\theta}{\sqrt2\,\sigma} $$
+//! $$ G = \frac{1}{1+\Lambda_i+\Lambda_s} \qquad (1) $$
 //!
-//! with the standard deviation of the slope along the azimuth of each ray in the sample,
-//! σ² = σ_x² cos²α + σ_y² sin²α. 1 + Λ is the projected area of all facets that face a ray over
-//! the area of the plane, so that 1/(1 + Λ_i) alone conserves energy exactly.
+//! $$ \Lambda = \tfrac12\left[\frac{e^{-x^2}}{\sqrt\pi\,x} - \mathrm{erfc}\,x\right], \quad
+//!    x = \frac{\cot|\theta|}{\sqrt2\,\sigma}, \quad
+//!    \sigma^2 = \sigma_x^2 \cos^2\alpha + \sigma_y^2 \sin^2\alpha \qquad (2) $$
+//!
+//! σ is the standard deviation of the slope along the azimuth α of a ray in the sample. 1 + Λ is
+//! the projected area of all facets that face a ray over the area of the plane, so that 1/(1 + Λ_i)
+//! alone conserves energy exactly.
 //!
 //! Two rays in one half plane (α_i = α_s, as in retro-reflection) are shadowed by the same
-//! neighbours: then only the larger Λ counts. `azimuth` chooses how:
-//! 0, as printed: exactly there (|Δα| ≤ 10⁻¹⁰) and nowhere else, a jump;
-//! 1, the general form everywhere;
-//! 2, smoothly: G = 1/(1 + max Λ + t min Λ), t = 4.41Δα/(4.41Δα + 1): the choice for pictures.
+//! neighbours: then only the larger Λ counts,
+//!
+//! $$ G = \frac{1}{1 + \max\Lambda + t\,\min\Lambda} \qquad (3) $$
+//!
+//! and `azimuth` chooses t:
+//! 0, as printed: t = 0 where |Δα| ≤ 10⁻¹⁰ and 1 elsewhere, a jump;
+//! 1: t = 1, which is (1), everywhere;
+//! 2: t = 4.41Δα/(4.41Δα + 1), which is smooth: use it for pictures.
 //!
 //! `sigmax` or `sigmay` = 0 takes the deviation from the slope distribution of the facets.
 //! With other slopes than Gaussian ones the hemispherical reflectance can exceed 1.
@@ -101,10 +107,11 @@ struct Sancer {
 const SAME_AZIMUTH: f64 = 1e-10;
 
 impl Sancer {
-    /// Λ of a ray whose azimuth in the sample has this cosine and sine.
-    fn of_ray(&self, sin: f64, cos: f64, along_x: f64, along_y: f64) -> f64 {
-        let sigma = (self.sigma_x * along_x).hypot(self.sigma_y * along_y);
-        lambda(cos / sin.abs() * FRAC_1_SQRT_2 / sigma)
+    /// Λ of a ray by the sine and cosine of its polar angle and the cosine and sine of α. (2)
+    fn of_ray(&self, sin: f64, cos: f64, cos_alpha: f64, sin_alpha: f64) -> f64 {
+        let sigma = (self.sigma_x * cos_alpha).hypot(self.sigma_y * sin_alpha);
+        let x = cos / sin.abs() * FRAC_1_SQRT_2 / sigma;
+        lambda(x)
     }
 }
 
@@ -119,15 +126,16 @@ impl Shadow for Sancer {
         if low == 0.0 {
             return 1.0 / (1.0 + high);
         }
-        let weight = match self.azimuths {
+        let t = match self.azimuths {
             Azimuths::General => 1.0,
             Azimuths::Jump => f64::from(azimuth_between(incidence, direction) > SAME_AZIMUTH),
             Azimuths::Smooth => {
-                let t = 4.41 * azimuth_between(incidence, direction);
-                t / (t + 1.0)
+                let scaled = 4.41 * azimuth_between(incidence, direction);
+                scaled / (scaled + 1.0)
             }
         };
-        1.0 / (1.0 + high + weight * low)
+        // (3)
+        1.0 / (1.0 + high + t * low)
     }
 
     fn adapt(&mut self, slopes: &dyn SlopeDistribution) -> Result<(), ParameterError> {
@@ -154,11 +162,12 @@ fn azimuth_between(incidence: &Incidence, direction: &Direction) -> f64 {
     delta.min(TAU - delta)
 }
 
-/// Λ = ½[e^{−x²}/(√π x) − erfc x]; beyond x = 26 it is below 10⁻²⁹⁵ and taken as 0.
+/// Λ = ½[e^{−x²}/(√π x) − erfc x], (2); beyond x = 26 it is below 10⁻²⁹⁵ and taken as 0.
 pub fn lambda(x: f64) -> f64 {
     if x > 26.0 {
         return 0.0;
     }
+    // erfc x = e^{−x²} scaled/(1 + 2x).
     let [falling, scaled] = falling_and_scaled(x);
     (falling / (x * ROOT_PI) - falling * scaled / (x * 2.0 + 1.0)) * 0.5
 }

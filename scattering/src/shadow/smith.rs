@@ -2,14 +2,13 @@
 //!
 //! $$ G = g(\theta_i)\,g(\theta_s), \qquad
 //!    g = \frac{1-\tfrac12\,\mathrm{erfc}(\mu/\sqrt2 w)}{1+\Lambda}, \qquad
-//!    \mu = \cot|\theta| $$
+//!    \mu = \cot|\theta| \qquad (1) $$
 //!
 //! $$ \Lambda = \tfrac12\left[\sqrt{2/\pi}\,\frac{w}{\mu}\,e^{-\mu^2/2w^2}
-//!    - \mathrm{erfc}(\mu/\sqrt2 w)\right] $$
+//!    - \mathrm{erfc}(\mu/\sqrt2 w)\right] \qquad (2) $$
 //!
-//! w is the rms slope along one axis; for a Gaussian density of slopes w = s/√2 belongs to it.
-//! The numerator averages over unknown slopes although the slope of the facet is known; the
-//! Sancer function does without.
+//! w is the rms slope along one axis: s/√2 for a Gaussian density of slopes. The numerator averages
+//! over unknown slopes although the slope of the facet is known; the Sancer function does not.
 //!
 //! B. G. Smith, IEEE Trans. Antennas Propag. AP-15, 668 (1967).
 
@@ -53,18 +52,21 @@ struct Smith {
 const UNSHADOWED: f64 = 6.0;
 
 impl Smith {
-    /// g of a ray, or of a batch of rays.
+    /// g of a ray, or of a batch of rays. (1)
     ///
-    /// With x = μ/√2w and erfc x = e^{−x²} f/(1 + 2x), numerator and denominator are taken times
+    /// With x = μ/√2w and erfc x = e^{−x²} f/(1 + 2x), numerator and denominator are multiplied by
     /// √π x (1 + 2x): one division instead of three.
     #[inline(always)]
     fn one_ray<R: Real>(&self, sin: R, cos: R) -> R {
-        let x = cos / sin.abs() * self.scale;
+        let mu = cos / sin.abs();
+        let x = mu * self.scale;
         let [falling, scaled] = falling_and_scaled(x);
-        let (of_lambda, of_erfc) = (x * ROOT_PI, x * 2.0 + 1.0);
-        let whole = of_lambda * of_erfc;
-        let erfc = falling * scaled * of_lambda;
-        let shadowed = (whole - erfc * 0.5) / (whole + (falling * of_erfc - erfc) * 0.5);
+        let (root_pi_x, one_plus_2x) = (x * ROOT_PI, x * 2.0 + 1.0);
+        // Each of these times √π x (1 + 2x): 1, erfc x and Λ (2).
+        let one = root_pi_x * one_plus_2x;
+        let erfc = falling * scaled * root_pi_x;
+        let lambda = (falling * one_plus_2x - erfc) * 0.5;
+        let shadowed = (one - erfc * 0.5) / (one + lambda);
         (x - UNSHADOWED).select(x.splat(1.0), shadowed)
     }
 }

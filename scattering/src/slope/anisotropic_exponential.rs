@@ -40,7 +40,9 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
 struct AnisotropicExponential {
     sx: f64,
     sy: f64,
+    /// 3/(π s_x s_y).
     peak: f64,
+    /// √6.
     decay: f64,
 }
 

@@ -55,18 +55,19 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
 
 struct AnisotropicGaussian {
     deviations: (f64, f64),
+    /// 1/(2π σ_x σ_y).
     peak: f64,
     /// 1/(2σ²) along x and y.
     half_inverse: (f64, f64),
-    /// The exponential in its place.
+    /// True for the exponential that the paper prints.
     printed: bool,
 }
 
 impl ClosedForm for AnisotropicGaussian {
     #[inline(always)]
     fn at<R: Real>(&self, x: R, y: R) -> R {
-        let (a, b) = self.half_inverse;
-        let half = x * x * a + y * y * b;
+        let (half_inverse_x, half_inverse_y) = self.half_inverse;
+        let half = x * x * half_inverse_x + y * y * half_inverse_y;
         let exponent = if self.printed { (half * 2.0).sqrt() } else { half };
         (-exponent).exp_falling() * self.peak
     }

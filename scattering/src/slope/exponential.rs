@@ -33,13 +33,16 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
 
 struct ExponentialSlope {
     s: f64,
+    /// 3/(π s²).
     peak: f64,
+    /// √6/s.
     rate: f64,
 }
 
 impl SlopeDistribution for ExponentialSlope {
     fn density(&self, x: f64, y: f64) -> f64 {
-        self.peak * (-self.rate * (x * x + y * y).sqrt()).exp()
+        let zeta = (x * x + y * y).sqrt();
+        self.peak * (-self.rate * zeta).exp()
     }
 
     fn deviations(&self) -> Option<(f64, f64)> {

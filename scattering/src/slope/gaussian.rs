@@ -35,6 +35,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
 
 struct GaussianSlope {
     s: f64,
+    /// 1/(π s²).
     peak: f64,
     /// 1/s².
     inverse: f64,

@@ -1,8 +1,9 @@
 //! Gaussian density of the tilt angle.
 //!
-//! $$ S = \frac{P(\theta_n)}{(1+\zeta^2)^2}, \qquad \theta_n = \arctan\zeta, \qquad
-//!    P = \frac{e^{-\theta_n^2/\sigma^2}}{\pi\sigma^2 N}, \qquad
-//!    N = 1 - e^{-(\pi/2\sigma)^2} $$
+//! $$ S = \frac{P(\theta_n)}{(1+\zeta^2)^2}, \quad \theta_n = \arctan\zeta \qquad (1) $$
+//!
+//! $$ P = \frac{e^{-\theta_n^2/\sigma^2}}{\pi\sigma^2 N}, \quad
+//!    N = 1 - e^{-(\pi/2\sigma)^2} \qquad (2) $$
 //!
 //! σ is given in degrees. ∫2πθ P dθ = 1 from 0 to π/2, so ∫∫S is a little below 1 for wide σ.
 
@@ -25,12 +26,14 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
     build: |node| {
         let sigma = width(node, "sigma")?.to_radians();
         let inverse = 1.0 / (sigma * sigma);
-        let norm = 1.0 - (-FRAC_PI_2 * FRAC_PI_2 * inverse).exp();
-        Ok(Box::new(GaussianAngle { peak: FRAC_1_PI * inverse / norm, inverse }))
+        // N (2).
+        let integral = 1.0 - (-FRAC_PI_2 * FRAC_PI_2 * inverse).exp();
+        Ok(Box::new(GaussianAngle { peak: FRAC_1_PI * inverse / integral, inverse }))
     },
 };
 
 struct GaussianAngle {
+    /// 1/(π σ² N).
     peak: f64,
     /// 1/σ², σ in radians.
     inverse: f64,
@@ -38,6 +41,7 @@ struct GaussianAngle {
 
 impl SlopeDistribution for GaussianAngle {
     fn density(&self, x: f64, y: f64) -> f64 {
-        by_angle(x, y, |theta| self.peak * (-theta * theta * self.inverse).exp())
+        // (1), (2)
+        by_angle(x, y, |theta_n| self.peak * (-theta_n * theta_n * self.inverse).exp())
     }
 }

@@ -40,6 +40,7 @@ pub const SPEC: Spec<dyn SlopeDistribution> = Spec {
 struct SlopeMixture {
     first: Box<dyn SlopeDistribution>,
     second: Box<dyn SlopeDistribution>,
+    /// f.
     fraction: f64,
 }
 

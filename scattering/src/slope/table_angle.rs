@@ -47,7 +47,7 @@ struct TableAngle {
 
 impl SlopeDistribution for TableAngle {
     fn density(&self, x: f64, y: f64) -> f64 {
-        by_angle(x, y, |theta| self.table.at(theta * self.degrees))
+        by_angle(x, y, |theta_n| self.table.at(theta_n * self.degrees))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The complementary error function for one number or a batch.
 //!
-//! $$ \mathrm{erfc}\,x = \frac{e^{-x^2}}{1+2x}\,f(t), \qquad
-//!    f = (1+2x)\,e^{x^2}\,\mathrm{erfc}\,x, \qquad t = \frac{x-K}{x+K},\; K = 3.75 $$
+//! $$ \mathrm{erfc}\,x = \frac{e^{-x^2}}{1+2x}\,f(t), \quad
+//!    t = \frac{x-K}{x+K}, \quad K = 3.75 $$
 //!
 //! f is smooth on −1 ≤ t < 1, that is for all x ≥ 0, and a short series gives it. The coefficients
 //! are those of the Chebyshev series, computed with 50 digits and sorted by powers of t; the first
@@ -16,10 +16,10 @@ use crate::lanes::{Real, polynomial};
 /// √π.
 pub(crate) const ROOT_PI: f64 = 2.0 / FRAC_2_SQRT_PI;
 
-/// Position of t = 0.
+/// K, the x of t = 0.
 const MIDDLE: f64 = 3.75;
 
-/// Of t²⁴, t²³, …, 1.
+/// The coefficients of t²⁴, t²³, …, 1 in f.
 const SERIES: [f64; 25] = [
     4.251_471_444_796_389_5e-10,
     3.111_433_380_979_925_4e-10,
