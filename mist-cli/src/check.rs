@@ -2,14 +2,11 @@
 
 use std::path::PathBuf;
 
-use mist_engine::{Options, compile};
-use mist_runner::files::DiskFiles;
-
 use super::{
     error::{CommandError, ExitStatus},
-    flags::{CompatFlag, MessageFlag},
-    input::InputText,
+    flags::{CompatFlag, EngineFlags, MessageFlag},
     output::print,
+    program::ProgramInput,
     report::MessageFormat,
     reporter::Reporter,
 };
@@ -34,15 +31,14 @@ pub(super) struct CheckArgs {
 pub(super) fn check(args: &CheckArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let mut status = ExitStatus::Success;
     for path in &args.programs {
-        let source = InputText::program(path)?;
-        let files = DiskFiles::beside(path).shared();
-        let options =
-            Options { mode: args.compat.mode(), job: source.stem(), ..Options::default() };
-        let found = match compile(&source.text, files, &options) {
+        let program = ProgramInput::read(path)?;
+        let source = &program.source;
+        let flags = EngineFlags { compat: args.compat, seed: None };
+        let found = match program.compile(&program.options(flags, None)) {
             Ok(job) => job.advice(),
             Err(diagnostics) => diagnostics,
         };
-        reporter.diagnostics(&found, &source, args.message.message_format);
+        reporter.diagnostics(&found, source, args.message.message_format);
         let errors = found.iter().filter(|diagnostic| diagnostic.is_error()).count();
         if errors > 0 {
             status = ExitStatus::Refused;

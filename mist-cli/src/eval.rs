@@ -13,8 +13,9 @@ use super::{
 /// Mueller matrices of a model in given directions, as JSON.
 ///
 /// The input is {"model": …, "parameters": {…}, "basis": "psps", "geometries": [{"theta_i": …,
-/// "theta_s": …, "phi_s": …, "rotation": …}], "files": {…}} with angles in radians; the answer is
-/// {"mueller": [[16 numbers, row by row], …]} in 1/sr.
+/// "theta_s": …, "phi_s": …, "rotation": …}], "files": {…}} with angles in radians, or with
+/// "program" in place of model and parameters: a text whose first step is the material. The answer
+/// is {"mueller": [[16 numbers, row by row], …]} in 1/sr.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:

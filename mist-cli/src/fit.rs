@@ -12,6 +12,7 @@ use super::{
     error::{CommandError, ExitStatus},
     input::InputText,
     output::print,
+    program::ProgramInput,
     reporter::Reporter,
     vary::{self, VaryArgs},
 };
@@ -60,21 +61,21 @@ pub(super) struct FitArgs {
 
 fn start(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("must be NAME=VALUE")?;
-    let value = value.trim().parse().map_err(|_| format!("{value:?} is no number"))?;
+    let value = value.trim().parse().map_err(|_| format!("{value:?} is not a number"))?;
     Ok((name.trim().to_owned(), value))
 }
 
 fn bounds(text: &str) -> Result<(String, [f64; 2]), String> {
     let (name, range) = text.split_once('=').ok_or("must be NAME=LOW:HIGH")?;
     let (low, high) = range.split_once(':').ok_or("must be NAME=LOW:HIGH")?;
-    let number = |text: &str| text.trim().parse().map_err(|_| format!("{text:?} is no number"));
+    let number = |text: &str| text.trim().parse().map_err(|_| format!("{text:?} is not a number"));
     Ok((name.trim().to_owned(), [number(low)?, number(high)?]))
 }
 
 /// Fits and tells.
 pub(super) fn fit(args: &FitArgs, reporter: &Reporter) -> Result<(), CommandError> {
-    let source = InputText::read(&args.vary.program)?;
-    let program = args.vary.open(&source, reporter)?;
+    let input = ProgramInput::read(&args.vary.program)?;
+    let program = args.vary.open(&input, reporter)?;
     let table = InputText::read(&args.measured)?;
     let measured = MeasuredTable::parse(&table.text, program.titles(), program.headers())
         .map_err(|error| CommandError::Refused(format!("{}: {error}", table.name())))?;
@@ -90,7 +91,7 @@ pub(super) fn fit(args: &FitArgs, reporter: &Reporter) -> Result<(), CommandErro
     match args.vary.watch("fit", run)? {
         Ok(found) if args.vary.json.json => print(&vary::json(&found, &reporter.warnings())?),
         Ok(found) => print(&describe(&found)),
-        Err(error) => Err(stop(&error, &source, args, reporter)),
+        Err(error) => Err(stop(&error, &input.source, args, reporter)),
     }
 }
 

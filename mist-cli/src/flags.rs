@@ -4,7 +4,7 @@ use mist_engine::request::{RequestError, Wavelengths, read, wavelength_warning};
 use preview::LampBasis;
 use scattering::Mode;
 
-use super::{error::CommandError, input::InputText, report::MessageFormat, reporter::Reporter};
+use super::{error::CommandError, report::MessageFormat, reporter::Reporter};
 
 /// The flag `--compat`.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -26,21 +26,9 @@ impl CompatFlag {
 pub(super) struct EngineFlags {
     #[command(flatten)]
     pub(super) compat: CompatFlag,
-    /// Seed of the Monte Carlo modes.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-}
-
-impl EngineFlags {
-    /// The options for the program in `source`, whose job is called `job` or after the program.
-    pub(super) fn options(self, source: &InputText, job: Option<&str>) -> mist_engine::Options {
-        mist_engine::Options {
-            mode: self.compat.mode(),
-            job: job.map_or_else(|| source.stem(), str::to_owned),
-            seed: self.seed,
-            ..mist_engine::Options::default()
-        }
-    }
+    /// Seed of the Monte Carlo modes [default: 1].
+    #[arg(long)]
+    pub(super) seed: Option<u64>,
 }
 
 /// The flag `--lambda`; each command has its own default.
@@ -62,7 +50,7 @@ impl LambdaFlag {
     ///
     /// # Errors
     ///
-    /// If warnings are denied, or the text is no list of wavelengths.
+    /// If warnings are denied, or the text is not a list of wavelengths.
     pub(super) fn warn(&self, reporter: &Reporter) -> Result<(), CommandError> {
         if let Some(text) = &self.lambda {
             let nm = read::<Wavelengths>("lambda", text)?.into_vec();

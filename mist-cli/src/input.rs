@@ -25,10 +25,13 @@ impl InputText {
         Self::of(path, u64::MAX)
     }
 
-    /// Reads the program at `path`, up to a byte more than a program may have: whoever compiles a
-    /// longer one refuses it.
+    /// Reads the program at `path`: JSON whole, a text up to a byte more than a program may have,
+    /// so that compiling refuses a longer one.
     pub(super) fn program(path: &Path) -> Result<Self, CommandError> {
-        Self::of(path, MAX_PROGRAM_BYTES as u64 + 1)
+        let text = Self::of(path, MAX_PROGRAM_BYTES as u64 + 1)?;
+        let is_long_json =
+            text.text.len() > MAX_PROGRAM_BYTES && text.text.trim_start().starts_with('{');
+        if is_long_json { Self::read(path) } else { Ok(text) }
     }
 
     fn of(path: &Path, most: u64) -> Result<Self, CommandError> {

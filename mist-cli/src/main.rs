@@ -22,6 +22,7 @@ mod merge;
 mod models;
 mod output;
 mod preview;
+mod program;
 mod progress;
 mod report;
 mod reporter;

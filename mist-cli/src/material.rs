@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use mist_engine::{
-    Failure, Options, compile,
-    material::{Material, MaterialError, PreparedMaterial},
+    Failure,
+    material::{MaterialError, PreparedMaterial},
+    request::MaterialDescription,
 };
 use mist_runner::files::DiskFiles;
 use rise_bridge::export::ExportError;
@@ -12,7 +13,9 @@ use scattering::Mode;
 
 use super::{
     error::{CommandError, ExitStatus},
+    flags::{CompatFlag, EngineFlags},
     input::InputText,
+    program::ProgramInput,
     report::{self, MessageFormat},
     reporter::Reporter,
 };
@@ -24,18 +27,24 @@ pub(super) fn prepared(
     mode: Mode,
     reporter: &Reporter,
 ) -> Result<PreparedMaterial, CommandError> {
-    let files = DiskFiles::beside(path).shared();
-    if source.text.trim_start().starts_with('{') {
-        let material = Material::from_json(&source.text).map_err(refused)?;
-        return material.prepare(mode, Some(files)).map_err(refused);
-    }
-    let options = Options { mode, job: source.stem(), ..Options::default() };
+    let described = MaterialDescription::parse(&source.text);
+    let described = described.map_err(|error| {
+        CommandError::Refused(format!("{}: not a material: {error}", source.name()))
+    })?;
+    let program = match described {
+        MaterialDescription::Program(program) => ProgramInput::new(source, program),
+        model @ MaterialDescription::Model(_) => {
+            let files = DiskFiles::beside(path).shared();
+            return model.prepare(mode, Some(files)).map_err(refused);
+        }
+    };
     let told = |diagnostics: &[_]| {
-        reporter.diagnostics(diagnostics, source, MessageFormat::Human);
+        reporter.diagnostics(diagnostics, &program.source, MessageFormat::Human);
         CommandError::Reported(ExitStatus::Refused)
     };
-    let job = compile(&source.text, files, &options).map_err(|found| told(&found))?;
-    reporter.warn_of_program(&job.slips(), source, MessageFormat::Human);
+    let flags = EngineFlags { compat: CompatFlag { compat: mode == Mode::Compat }, seed: None };
+    let job = program.compile(&program.options(flags, None)).map_err(|found| told(&found))?;
+    reporter.warn_of_program(&job.slips(), &program.source, MessageFormat::Human);
     PreparedMaterial::of_step(&job).map_err(|failure| match failure {
         Failure::Program(found) => told(&found),
         other => CommandError::Failed(other.to_string()),

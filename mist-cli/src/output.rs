@@ -8,7 +8,7 @@ use super::error::CommandError;
 ///
 /// # Errors
 ///
-/// If it cannot be written; a reader that has closed the pipe is no error.
+/// If it cannot be written; a reader that has closed the pipe is not an error.
 pub(super) fn print(text: &str) -> Result<(), CommandError> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

@@ -215,7 +215,7 @@ impl PreviewArgs {
                 let bytes = std::fs::read(path).map_err(|error| refused(&error))?;
                 let picture = Image::read(&bytes).map_err(|error| refused(&error))?;
                 if picture.values().iter().any(|value| !value.is_finite()) {
-                    return Err(refused(&"it has values that are no numbers"));
+                    return Err(refused(&"it has values that are not numbers"));
                 }
                 Ok(Sky::Map(Environment::new(&picture, factor)))
             }

@@ -6,9 +6,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{Control, Failure, Job, RunSummary, Warning, compile};
+use mist_engine::{Control, Failure, Job, RunSummary, Warning};
 use mist_runner::{
-    files::DiskFiles,
     run::{RunError, ShardRun, WrittenFile, run_shard, run_to_files},
     shard::Shard,
 };
@@ -16,9 +15,9 @@ use mist_runner::{
 use super::{
     error::{CommandError, ExitStatus},
     flags::{EngineFlags, MessageFlag},
-    input::InputText,
     interrupt,
     output::print,
+    program::ProgramInput,
     progress::TerminalProgress,
     report,
     reporter::Reporter,
@@ -38,7 +37,7 @@ Examples:
   mist run --job glossy --threads 4 paint.mist
   mist run --shard 3/16 paint.mist    the third of 16 parts; see `mist merge`")]
 pub(super) struct RunArgs {
-    /// Programs; with --compat a second name that is no file names the job, as NIST's program
+    /// Programs; with --compat a second name that is not a file names the job, as NIST's program
     /// has it.
     #[arg(required = true)]
     programs: Vec<PathBuf>,
@@ -111,25 +110,26 @@ fn run_one(
     mut control: Control,
     reporter: &Reporter,
 ) -> Result<ExitStatus, CommandError> {
-    let source = match InputText::program(program) {
-        Ok(source) => source,
+    let program = match ProgramInput::read(program) {
+        Ok(program) => program,
         Err(CommandError::Refused(message)) => {
             report::print_line(&format!("error: {message}"));
             return Ok(ExitStatus::Refused);
         }
         Err(stop) => return Err(stop),
     };
-    let options = args.engine.options(&source, args.job.as_deref());
+    let source = &program.source;
+    let options = program.options(args.engine, args.job.as_deref());
     let format = args.message.message_format;
-    let tell = |diagnostics: &[_]| reporter.diagnostics(diagnostics, &source, format);
-    let job = match compile(&source.text, DiskFiles::beside(program).shared(), &options) {
+    let tell = |diagnostics: &[_]| reporter.diagnostics(diagnostics, source, format);
+    let job = match program.compile(&options) {
         Ok(job) => job,
         Err(diagnostics) => {
             tell(&diagnostics);
             return Ok(ExitStatus::Refused);
         }
     };
-    reporter.warn_of_program(&job.slips(), &source, format);
+    reporter.warn_of_program(&job.slips(), source, format);
     if reporter.status() == ExitStatus::Refused {
         return Ok(ExitStatus::Refused);
     }
@@ -146,7 +146,7 @@ fn run_one(
     match done {
         Ok((said, summary)) => {
             note(&source.name(), &summary, reporter);
-            reporter.warn_of_program(&summary.warnings, &source, format);
+            reporter.warn_of_program(&summary.warnings, source, format);
             if let Some(table) = &summary.colour {
                 reporter.warn(&source.name(), &table.warnings);
             }

@@ -8,8 +8,8 @@ use mist_format::number::general;
 
 use super::{
     error::{CommandError, ExitStatus},
-    input::InputText,
     output::print,
+    program::ProgramInput,
     reporter::Reporter,
     vary::{self, VaryArgs},
 };
@@ -34,18 +34,18 @@ pub(super) struct ToleranceArgs {
 
 /// Computes and tells.
 pub(super) fn tolerance(args: &ToleranceArgs, reporter: &Reporter) -> Result<(), CommandError> {
-    let source = InputText::read(&args.vary.program)?;
-    let program = args.vary.open(&source, reporter)?;
+    let input = ProgramInput::read(&args.vary.program)?;
+    let program = args.vary.open(&input, reporter)?;
     let run = |control: &Control| tolerance::tolerance(&program, args.step, control);
     match args.vary.watch("tolerance", run)? {
         Ok(found) if args.vary.json.json => print(&vary::json(&found, &reporter.warnings())?),
         Ok(found) => print(&describe(&found)),
         Err(ToleranceError::Run { failure: Failure::Program(diagnostics), .. }) => {
-            vary::tell(&diagnostics, &source, reporter);
+            vary::tell(&diagnostics, &input.source, reporter);
             Err(CommandError::Reported(ExitStatus::Refused))
         }
         Err(error @ ToleranceError::Run { .. }) => Err(CommandError::Failed(error.to_string())),
-        Err(error) => Err(CommandError::Refused(format!("{}: {error}", source.name()))),
+        Err(error) => Err(CommandError::Refused(format!("{}: {error}", input.source.name()))),
     }
 }
 

@@ -7,12 +7,12 @@ use mist_engine::{
     function::{FunctionError, ProgramFunction},
 };
 use mist_format::Diagnostic;
-use mist_runner::files::DiskFiles;
 
 use super::{
     error::{CommandError, ExitStatus},
     flags::{EngineFlags, JsonFlag},
     input::InputText,
+    program::ProgramInput,
     report::MessageFormat,
     reporter::Reporter,
     threads::ThreadsFlag,
@@ -35,18 +35,18 @@ pub(super) struct VaryArgs {
 }
 
 impl VaryArgs {
-    /// The program of `source` as a function of its variables.
+    /// The `program` as a function of its variables.
     ///
     /// Its warnings go to `reporter`, and stop the command if they are denied.
     pub(super) fn open(
         &self,
-        source: &InputText,
+        program: &ProgramInput,
         reporter: &Reporter,
     ) -> Result<ProgramFunction, CommandError> {
-        let files = DiskFiles::beside(&self.program).shared();
-        let options = self.engine.options(source, None);
+        let source = &program.source;
+        let options = program.options(self.engine, None);
         let names: Vec<String> = self.vary.iter().map(|name| name.trim().to_owned()).collect();
-        let function = ProgramFunction::new(&source.text, files, options, &names);
+        let function = ProgramFunction::new(&source.text, program.files(), options, &names);
         let function = function.map_err(|error| match error {
             FunctionError::Program(diagnostics) => {
                 tell(&diagnostics, source, reporter);

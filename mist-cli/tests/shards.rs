@@ -162,7 +162,7 @@ fn missing_double_and_foreign_shards_are_named() {
     let text = said(mist(&dir, &["run", "sweep.mist", "--shard", "2/3"]), 2);
     assert!(text.contains("sweep.2-of-3 belongs to a run of another program"), "{text}");
     let text = said(mist(&dir, &["merge", "sweep.mist"]), 2);
-    assert!(text.contains("it is no shard"), "{text}");
+    assert!(text.contains("it is not a shard"), "{text}");
     fs::write(dir.path().join("sweep.2-of-4"), "a text of somebody\n").unwrap();
     said(mist(&dir, &["run", "sweep.mist", "--shard", "2/4"]), 1);
     assert_eq!(read(&dir, "sweep.2-of-4"), "a text of somebody\n");

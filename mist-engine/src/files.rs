@@ -54,6 +54,37 @@ impl Files for MemoryFiles {
     }
 }
 
+/// The files that came with a text, then those around it.
+pub(crate) struct LayeredFiles {
+    own: MemoryFiles,
+    around: Option<Arc<dyn Files + Send + Sync>>,
+}
+
+impl LayeredFiles {
+    /// The files `own`, by name, and those that `around` has.
+    pub(crate) fn new(
+        own: &BTreeMap<String, String>,
+        around: Option<Arc<dyn Files + Send + Sync>>,
+    ) -> Self {
+        let own = own.iter().map(|(name, text)| (name.clone(), text.as_str().into()));
+        Self { own: MemoryFiles(own.collect()), around }
+    }
+}
+
+impl Files for LayeredFiles {
+    fn read(&self, name: &str) -> Result<Arc<str>, FileError> {
+        match (&self.around, self.own.read(name)) {
+            (Some(around), Err(_)) => around.read(name),
+            (_, own) => own,
+        }
+    }
+
+    fn names(&self) -> Vec<String> {
+        let around = self.around.iter().flat_map(|around| around.names());
+        self.own.names().into_iter().chain(around).collect()
+    }
+}
+
 /// Data files of a run: each is read and parsed once. Clones share them.
 #[derive(Clone)]
 pub struct DataFiles {

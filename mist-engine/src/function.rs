@@ -90,7 +90,7 @@ pub enum FunctionError {
     /// A loop writes the variable.
     #[error("{0:?} is varied by a loop of the program; take the loop out or name another variable")]
     Looped(String),
-    /// The variable is no number.
+    /// The variable is not a number.
     #[error("{0:?} is not one number, so it cannot vary")]
     NoNumber(String),
     /// The program cannot be compiled.

@@ -9,6 +9,7 @@ pub mod lobes;
 pub mod results;
 pub mod table;
 
+mod description;
 mod patch;
 
 use std::{
@@ -19,8 +20,9 @@ use std::{
 use rayon::prelude::*;
 
 use crate::{
-    DataFiles, Failure, FileError, Files, Job, MemoryFiles, Warning,
+    DataFiles, Failure, Files, Job, Warning,
     deviation::dialect,
+    files::LayeredFiles,
     parameters::{
         ModelParameters, ParameterInput, ParameterPath, SetError, TableFinding, TableUses,
     },
@@ -53,6 +55,9 @@ pub enum MaterialError {
     /// The model cannot be built with these values.
     #[error(transparent)]
     Build(#[from] ParameterError),
+    /// The program of the material is wrong.
+    #[error("{0}")]
+    Program(#[from] Failure),
     /// A part of the request is wrong.
     #[error(transparent)]
     Request(#[from] RequestError),
@@ -85,6 +90,7 @@ impl MaterialError {
     pub fn help(&self) -> Option<&str> {
         match self {
             Self::Model { help, .. } => help.as_deref(),
+            Self::Program(Failure::Program(found)) => found.first()?.help.as_deref(),
             Self::Set(error) => error.help.as_deref(),
             _ => None,
         }
@@ -99,26 +105,6 @@ impl MaterialError {
             Self::Request(error) => Some(&error.key),
             _ => None,
         }
-    }
-}
-
-/// The files of a material, then those around it.
-struct LayeredFiles {
-    own: MemoryFiles,
-    more: Option<Arc<dyn Files + Send + Sync>>,
-}
-
-impl Files for LayeredFiles {
-    fn read(&self, name: &str) -> Result<Arc<str>, FileError> {
-        match (&self.more, self.own.read(name)) {
-            (Some(more), Err(_)) => more.read(name),
-            (_, own) => own,
-        }
-    }
-
-    fn names(&self) -> Vec<String> {
-        let more = self.more.iter().flat_map(|more| more.names());
-        self.own.names().into_iter().chain(more).collect()
     }
 }
 
@@ -142,9 +128,8 @@ impl Material {
         mode: Mode,
         more_files: Option<Arc<dyn Files + Send + Sync>>,
     ) -> Result<PreparedMaterial, MaterialError> {
-        let own = self.files.iter().map(|(name, text)| (name.clone(), text.as_str().into()));
-        let shelf = LayeredFiles { own: MemoryFiles(own.collect()), more: more_files };
-        let library = DataFiles::new(Arc::new(shelf), dialect(mode));
+        let files = LayeredFiles::new(&self.files, more_files);
+        let library = DataFiles::new(Arc::new(files), dialect(mode));
         let class = class(&self.model)?;
         let mut parameters = ModelParameters::new(class);
         let paths = self.parameters.iter().map(|(path, _)| ParameterPath::resolve(class, path));
@@ -191,6 +176,8 @@ pub struct PreparedMaterial {
     mode: Mode,
     /// Warnings of the models that were built; clones share them.
     warnings: Arc<Mutex<BTreeSet<Warning>>>,
+    /// Warnings of the program that describes it.
+    program_warnings: Arc<[Warning]>,
     /// Notices of the models that were built and evaluated; clones share them.
     met: SharedNotices,
 }
@@ -204,7 +191,8 @@ impl PreparedMaterial {
     pub fn of_step(job: &Job) -> Result<Self, Failure> {
         let step = Replay::new(job).next_step().map_err(|fault| Failure::Program(vec![*fault]))?;
         let empty = || Failure::Limit("the loops of the program have no step".into());
-        Ok(Self::new(step.ok_or_else(empty)?.parameters, job.options.mode))
+        let prepared = Self::new(step.ok_or_else(empty)?.parameters, job.options.mode);
+        Ok(Self { program_warnings: job.slips().iter().map(Warning::from).collect(), ..prepared })
     }
 
     /// The same at another wavelength (µm): that of the model and of everything inside of it.
@@ -215,7 +203,7 @@ impl PreparedMaterial {
         if self.mode == Mode::Compat {
             parameters.forget_other_wavelengths();
         }
-        Self { parameters, mode: self.mode, warnings: self.warnings.clone(), met: self.met.clone() }
+        Self { parameters, ..self.clone() }
     }
 
     /// The models at all `wavelengths` (nm), built in parallel.
@@ -260,14 +248,21 @@ impl PreparedMaterial {
         warnings.into_iter().collect()
     }
 
+    /// Warnings of slips in the text of the program that describes the material.
+    pub fn program_warnings(&self) -> &[Warning] {
+        &self.program_warnings
+    }
+
     /// The same material with warnings of its own.
     #[must_use]
     pub fn with_own_warnings(&self) -> Self {
-        Self::new(self.parameters.clone(), self.mode)
+        let program_warnings = self.program_warnings.clone();
+        Self { program_warnings, ..Self::new(self.parameters.clone(), self.mode) }
     }
 
     fn new(parameters: ModelParameters, mode: Mode) -> Self {
-        Self { parameters, mode, warnings: Arc::default(), met: SharedNotices::default() }
+        let (warnings, program_warnings) = (Arc::default(), Arc::default());
+        Self { parameters, mode, warnings, program_warnings, met: SharedNotices::default() }
     }
 
     fn warn(&self, found: impl Iterator<Item = Warning>) {
@@ -321,6 +316,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
+    use crate::MemoryFiles;
 
     fn error(json: &str) -> MaterialError {
         Material::from_json(json).unwrap().prepare(Mode::Sound, None).unwrap_err()

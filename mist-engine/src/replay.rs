@@ -228,7 +228,7 @@ impl<'j> Replay<'j> {
         }
     }
 
-    /// Evaluates an entry that is no text.
+    /// Evaluates an entry that is not a text.
     fn value_of(&mut self, at: usize, entry: &'j VariableEntry) -> Result<Value, Fault> {
         let text = self.text(entry);
         match &mut self.overrides[at] {

@@ -1,6 +1,6 @@
 //! Requests: what the command line, HTTP and JSON ask for, as typed values with one grammar each.
 //!
-//! Every value has `FromStr` for texts and serde for JSON. A text that is no value is an
+//! Every value has `FromStr` for texts and serde for JSON. A text that is not a value is an
 //! [`InvalidText`]; [`read`] adds the key and makes it a [`RequestError`]. Serialization is
 //! canonical: values that are equal have equal JSON, whatever their texts were (`0`, `0.0` and
 //! `-0`), so a digest of it identifies a request.

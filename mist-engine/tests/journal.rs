@@ -55,7 +55,7 @@ fn assert_goes_on(rest: &str) {
     let control = Control { cancel: paper.cancel.clone(), progress: None };
     let stopped = job.run_on(&mut MemorySink::default(), &control, &mut paper);
     assert!(matches!(stopped, Err(Failure::Cancelled)), "{stopped:?}");
-    // A block that was kept in part is no different from one that was not begun.
+    // A block that was kept in part is not different from one that was not begun.
     let last = *paper.steps.keys().next_back().unwrap();
     paper.steps.remove(&last);
     let before = paper.steps.len() as u64;

@@ -35,7 +35,7 @@ pub enum MergeError {
     /// There is no shard.
     #[error("there is no shard to merge")]
     Nothing,
-    /// A file cannot be opened, or is no shard.
+    /// A file cannot be opened, or is not a shard.
     #[error("cannot read {path}: {source}", path = .path.display())]
     Unusable {
         /// The file.

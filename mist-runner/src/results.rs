@@ -30,7 +30,7 @@ impl<'a> Results<'a> {
         text
     }
 
-    /// `{"headers": […], "columns": […], "rows": [[…], …]}`; cells that are no numbers are texts.
+    /// `{"headers": […], "columns": […], "rows": [[…], …]}`; cells that are not numbers are texts.
     pub fn json(&self) -> Value {
         let row = |row: &Vec<&str>| row.iter().map(|cell| value(cell)).collect::<Value>();
         json!({

@@ -215,7 +215,7 @@ impl JournalReader {
 }
 
 fn no_journal() -> io::Error {
-    io::Error::new(io::ErrorKind::InvalidData, "it is no shard of a run of this version")
+    io::Error::new(io::ErrorKind::InvalidData, "it is not a shard of a run of this version")
 }
 
 /// Error of [`JournalWriter::open`].

@@ -5,14 +5,16 @@ use std::{
     sync::{Arc, PoisonError, RwLock},
 };
 
-use mist_engine::material::{Material, MaterialError, PreparedMaterial};
+use mist_engine::{
+    material::{MaterialError, PreparedMaterial},
+    request::{MaterialDescription, ProgramDescription},
+};
 use scattering::Mode;
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::{
     limits::ServeLimits,
-    program::{ProgramError, ProgramRequest},
+    program::{ProgramError, admit, compiled},
 };
 
 /// A material that is ready to be evaluated.
@@ -86,25 +88,26 @@ fn prepare(
     is_json: bool,
     limits: &ServeLimits,
 ) -> Result<PreparedMaterial, MaterialsError> {
-    if !is_json {
-        return first_step(&ProgramRequest::bare(text.to_owned()), limits);
+    let described = if is_json {
+        MaterialDescription::from_json(text).map_err(MaterialError::Json)?
+    } else {
+        MaterialDescription::Program(ProgramDescription::bare(text))
+    };
+    match described {
+        MaterialDescription::Model(material) => Ok(material.prepare(Mode::Sound, None)?),
+        MaterialDescription::Program(program) => first_step(&program, limits),
     }
-    let json: Value = serde_json::from_str(text).map_err(MaterialError::Json)?;
-    if json.get("program").is_none() {
-        return Ok(Material::from_json(text)?.prepare(Mode::Sound, None)?);
-    }
-    first_step(&serde_json::from_value(json).map_err(MaterialError::Json)?, limits)
 }
 
 /// The material of a program's first step.
 fn first_step(
-    request: &ProgramRequest,
+    program: &ProgramDescription,
     limits: &ServeLimits,
 ) -> Result<PreparedMaterial, MaterialsError> {
-    request.admit(limits)?;
-    let job = request.compile(limits.engine(limits.max_time))?;
+    admit(program, limits)?;
+    let job = compiled(program, limits.engine(limits.max_time))?;
     let prepared = PreparedMaterial::of_step(&job);
-    Ok(prepared.map_err(|failure| ProgramError::of(&request.program, failure))?)
+    Ok(prepared.map_err(|failure| ProgramError::of(&program.program, failure))?)
 }
 
 /// Materials by name; clones share them.

@@ -53,7 +53,7 @@ impl Surface {
         let n = unit(normal).ok_or(SurfaceError::Normal(normal))?;
         let along = unit(fiducial).ok_or(SurfaceError::Fiducial(fiducial))?;
         let across = along - along.dot(n) * n;
-        // What rounding leaves of an axis along the normal is no direction.
+        // An axis along the normal leaves only rounding errors, not a direction.
         if across.length() < 1e-14 {
             return Err(SurfaceError::Fiducial(fiducial));
         }

@@ -84,7 +84,7 @@ pub enum CompareError {
         "the simulated spectrum is zero everywhere, so no factor brings it to the measured one"
     )]
     Zero,
-    /// The common wavelengths are no grid.
+    /// The common wavelengths are not a grid.
     #[error("{0}")]
     Grid(#[from] GridError),
 }

@@ -163,7 +163,7 @@ fn every_crate_has_a_rule() {
         assert!(named.contains(&package.as_str()), "{package} has no row in RULES");
     }
     for name in named {
-        assert!(packages().iter().any(|package| package == name), "{name} is no package");
+        assert!(packages().iter().any(|package| package == name), "{name} is not a package");
     }
 }
 

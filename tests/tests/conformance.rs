@@ -50,7 +50,7 @@ fn monte_carlo(case: &Case, results: &str) -> Result<(), String> {
     let rows = results.lines().skip(1).filter(|line| !line.is_empty());
     for (row, known) in rows.zip(&case.mc) {
         let last = row.trim_end_matches('\t').rsplit('\t').next().unwrap_or("");
-        let value: f64 = last.trim().parse().map_err(|_| format!("{last:?} is no number"))?;
+        let value: f64 = last.trim().parse().map_err(|_| format!("{last:?} is not a number"))?;
         if (value - known.mean).abs() > 6.0 * known.sigma {
             return Err(format!("{value} is not {} ± 6·{}", known.mean, known.sigma));
         }

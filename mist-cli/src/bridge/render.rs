@@ -21,7 +21,7 @@ pub(super) fn read(path: &Path) -> Result<Image, String> {
     let bytes = fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let image = Image::read(&bytes).map_err(|error| format!("{}: {error}", path.display()))?;
     if image.values().iter().any(|value| !value.is_finite()) {
-        return Err(format!("{} has values that are no numbers", path.display()));
+        return Err(format!("{} has values that are not numbers", path.display()));
     }
     Ok(image)
 }

@@ -12,7 +12,7 @@ use crate::{
     step::{Step, StepIntegral},
 };
 
-/// Fewer directions than this are no average over an aperture.
+/// Fewer directions than this do not average over an aperture.
 const FEW: usize = 4;
 /// Directions of one integral that nobody needs: they cost a second of the simplest model.
 const MANY: f64 = 2e6;

@@ -62,7 +62,7 @@ struct Read {
 impl Read {
     fn of(job: &Job) -> Self {
         let mut slots = BTreeSet::new();
-        // `x = x + 1` alone is no use of x.
+        // `x = x + 1` alone is not a use of x.
         for entry in &job.plan.entries {
             if let Some(expr) = &entry.expr {
                 let others = expr.slots().iter().filter(|read| Some(**read) != entry.slot);

@@ -69,7 +69,7 @@ impl ApertureParameter {
             "POLCENTER" => Self::PolCenter,
             "POL" => Self::Pol,
             "INPOL" => Self::InPol,
-            other => unreachable!("{other} is no parameter of any shape"),
+            other => unreachable!("{other} is not a parameter of any shape"),
         }
     }
 }

@@ -38,7 +38,7 @@ pub enum FitError {
         /// The reason.
         failure: Failure,
     },
-    /// An output is no finite number.
+    /// An output is not a finite number.
     #[error("with {}: the output {output:?} is {value}", named(.values))]
     NotFinite {
         /// The variables.

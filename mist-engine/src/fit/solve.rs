@@ -354,7 +354,7 @@ fn check(settings: &FitSettings) -> Result<(), FitError> {
         return wrong("the iterations", "there must be at least one");
     }
     match settings.start.iter().find(|(_, value)| !value.is_finite()) {
-        Some((name, _)) => wrong(name, "its start is no finite number"),
+        Some((name, _)) => wrong(name, "its start is not a finite number"),
         None => Ok(()),
     }
 }

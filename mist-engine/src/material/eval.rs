@@ -68,9 +68,10 @@ pub fn answer(
     more_files: Option<Arc<dyn Files + Send + Sync>>,
 ) -> Result<EvaluationResponse, MaterialError> {
     let mut warnings = request.warnings();
-    let (material, basis, geometries) = request.into_parts();
+    let EvaluationRequest { material, basis, geometries } = request;
     let basis: Basis = read("basis", &basis)?;
     let prepared = material.prepare(mode, more_files)?;
+    warnings.extend_from_slice(prepared.program_warnings());
     let (model, met) = prepared.own_model()?;
     let row = |m: Mueller| m.to_row_major().map(JsonNumber);
     let at = |a: &GeometryAngles| {

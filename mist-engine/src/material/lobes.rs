@@ -135,7 +135,7 @@ impl Lobes {
     }
 
     fn batch(&self, pairs: &[(DVec3, DVec3)], out: LobeOutput, answers: &mut [f32]) {
-        // The side is no matter of the wavelength.
+        // The side does not depend on the wavelength.
         let side = self.models.first().map_or(Side::DownUp, |model| model.common().side);
         let seen = DirectionPairs::new(side, pairs);
         let mut matrices = vec![Mueller::ZERO; seen.places().len()];

@@ -201,7 +201,7 @@ impl<'t> ResultRow<'t> {
         let text = self.text(column);
         whole_number(text).ok_or_else(|| {
             let part = format!("line {}", self.number);
-            MaterialError::request(part, format!("column {}: {text:?} is no number", column + 1))
+            MaterialError::request(part, format!("column {}: {text:?} is not a number", column + 1))
         })
     }
 }

@@ -16,7 +16,7 @@ pub struct SetError {
 }
 
 impl SetError {
-    /// A text that is no value of the parameter.
+    /// A text that is not a value of the parameter.
     pub(crate) fn value(problem: impl Into<String>) -> Self {
         Self { path: String::new(), problem: problem.into(), help: None, about_the_name: false }
     }

@@ -38,7 +38,7 @@ impl PartialEq for FilmsState {
 impl Eq for FilmsState {}
 
 impl FilmsState {
-    /// Reads films, or the name of a file with films; nothing is no film.
+    /// Reads films, or the name of a file with films; an empty text has no film.
     pub(crate) fn read(text: &str, context: &ParameterContext<'_>) -> Result<Self, SetError> {
         let mut state = Self::default();
         state.grow(text, context)?;

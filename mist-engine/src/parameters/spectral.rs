@@ -11,7 +11,7 @@ use super::{
 };
 use crate::Warning;
 
-/// A wavelength this far outside of a table, as a factor, is no extrapolation of it.
+/// A wavelength this far outside of a table, as a factor, is not an extrapolation of it.
 const FAR: f64 = 1.25;
 /// Photon energy times wavelength, eV µm.
 const EV_UM: f64 = 1.239_841_984;

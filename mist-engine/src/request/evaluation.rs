@@ -4,37 +4,66 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::{material::Material, parameters};
+use super::{
+    material::{Material, MaterialDescription, ProgramDescription},
+    parameters,
+};
 
 /// A request for Mueller matrices in single geometries: a material, a basis, and the geometries.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "EvaluationBody")]
 pub struct EvaluationRequest {
-    /// Name of the model's class.
-    pub model: String,
-    /// As in [`Material::parameters`].
-    #[serde(default, with = "parameters")]
-    pub parameters: Vec<(String, String)>,
+    /// The material.
+    pub material: MaterialDescription,
     /// `psps`, `xyxy` or `plane`.
-    #[serde(default = "psps")]
     pub basis: String,
     /// Geometries in which the model is evaluated.
     pub geometries: Vec<GeometryAngles>,
-    /// As in [`Material::files`].
+}
+
+/// The keys of an [`EvaluationRequest`] in JSON: those of the material beside the others.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EvaluationBody {
+    model: Option<String>,
+    #[serde(default, with = "parameters")]
+    parameters: Vec<(String, String)>,
+    program: Option<String>,
     #[serde(default)]
-    pub files: BTreeMap<String, String>,
+    compat: bool,
+    #[serde(default)]
+    files: BTreeMap<String, String>,
+    #[serde(default = "psps")]
+    basis: String,
+    geometries: Vec<GeometryAngles>,
+}
+
+impl TryFrom<EvaluationBody> for EvaluationRequest {
+    type Error = &'static str;
+
+    fn try_from(body: EvaluationBody) -> Result<Self, Self::Error> {
+        let EvaluationBody { model, parameters, program, compat, files, basis, geometries } = body;
+        let material = match (model, program) {
+            (Some(model), None) if !compat => {
+                MaterialDescription::Model(Material { model, parameters, files })
+            }
+            (None, Some(program)) if parameters.is_empty() => {
+                let bare = ProgramDescription::bare(program);
+                MaterialDescription::Program(ProgramDescription { compat, files, ..bare })
+            }
+            (None, None) => return Err("missing field `model` or `program`"),
+            (Some(_), Some(_)) => return Err("`model` and `program` exclude each other"),
+            (Some(_), None) => return Err("`compat` belongs to `program`, not to `model`"),
+            (None, Some(_)) => return Err("`parameters` belong to `model`, not to `program`"),
+        };
+        Ok(Self { material, basis, geometries })
+    }
 }
 
 impl EvaluationRequest {
     /// Number of evaluations of the model.
     pub fn evaluations(&self) -> usize {
         self.geometries.len()
-    }
-
-    /// The material, and what remains: the basis and the geometries.
-    pub fn into_parts(self) -> (Material, String, Vec<GeometryAngles>) {
-        let Self { model, parameters, basis, geometries, files } = self;
-        (Material { model, parameters, files }, basis, geometries)
     }
 }
 

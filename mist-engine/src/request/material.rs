@@ -32,7 +32,9 @@ pub struct Material {
     pub files: BTreeMap<String, String>,
 }
 
-/// A program with its data files.
+/// A program with its data files and the options of its run.
+///
+/// It is read by every command and request that takes a program.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProgramDescription {
@@ -52,6 +54,22 @@ pub struct ProgramDescription {
     pub seed: Option<u64>,
 }
 
+impl ProgramDescription {
+    /// A program without files.
+    pub fn bare(program: impl Into<String>) -> Self {
+        Self { program: program.into(), ..Self::default() }
+    }
+
+    /// Reads a program: JSON if the text begins with `{`, else the text of the program.
+    ///
+    /// # Errors
+    ///
+    /// For invalid JSON, and for unknown and missing keys.
+    pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
+        if is_json(text) { serde_json::from_str(text) } else { Ok(Self::bare(text)) }
+    }
+}
+
 /// The one format of materials, in files and over HTTP.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaterialDescription {
@@ -62,23 +80,38 @@ pub enum MaterialDescription {
 }
 
 impl MaterialDescription {
-    /// Reads a description: JSON if it begins with `{`, else the text of a program.
+    /// Reads a description: JSON if the text begins with `{`, else the text of a program.
     ///
     /// # Errors
     ///
     /// For invalid JSON, and for unknown and missing keys.
     pub fn parse(text: &str) -> Result<Self, serde_json::Error> {
-        if !text.trim_start().starts_with('{') {
-            let program = text.to_owned();
-            return Ok(Self::Program(ProgramDescription { program, ..Default::default() }));
+        if is_json(text) {
+            Self::from_json(text)
+        } else {
+            Ok(Self::Program(ProgramDescription::bare(text)))
         }
-        let json: serde_json::Value = serde_json::from_str(text)?;
-        if json.get("program").is_some() {
-            return Ok(Self::Program(serde_json::from_value(json)?));
-        }
-        // From the text, whose errors have a line and a column.
-        Ok(Self::Model(serde_json::from_str(text)?))
     }
+
+    /// Reads a description from JSON.
+    ///
+    /// # Errors
+    ///
+    /// As [`MaterialDescription::parse`].
+    pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
+        let json: serde_json::Value = serde_json::from_str(text)?;
+        // From the text, whose errors have a line and a column.
+        if json.get("program").is_some() {
+            serde_json::from_str(text).map(Self::Program)
+        } else {
+            serde_json::from_str(text).map(Self::Model)
+        }
+    }
+}
+
+/// True for JSON, false for the text of a program.
+fn is_json(text: &str) -> bool {
+    text.trim_start().starts_with('{')
 }
 
 #[cfg(test)]
@@ -95,5 +128,7 @@ mod tests {
         assert!(program.compat && program.files.contains_key("a.txt"));
         assert!(matches!(read("MODEL = X"), MaterialDescription::Program(_)));
         assert!(MaterialDescription::parse(r#"{"modle": "X"}"#).is_err());
+        assert!(ProgramDescription::parse(model).is_err());
+        assert_eq!(ProgramDescription::parse("MODEL = X").unwrap().program, "MODEL = X");
     }
 }

@@ -14,13 +14,13 @@ const ROUNDED: f64 = 1.0001;
 const VISIBLE_NM: [f64; 2] = [360.0, 830.0];
 /// Shorter wavelengths in nm are rather ones in µm.
 const SHORTEST_NM: f64 = 30.0;
-/// Longer wavelengths in nm are no light that the models are used for.
+/// Longer wavelengths in nm are outside of the light that the models are used for.
 const LONGEST_NM: f64 = 1e5;
 /// Photon energy times wavelength, eV nm.
 const EV_NM: f64 = 1_239.841_984;
 
 impl EvaluationRequest {
-    /// Warnings of angles that are no directions above the surface in radians.
+    /// Warnings of angles that are not directions above the surface in radians.
     pub fn warnings(&self) -> Vec<Warning> {
         type Angle = fn(&GeometryAngles) -> f64;
         let angles: [(&str, Angle, f64); 4] = [

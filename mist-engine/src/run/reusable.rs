@@ -27,7 +27,7 @@ pub(crate) struct ReusableSteps {
 impl ReusableSteps {
     /// The steps of `job`. None if the entries `given` change more than parameters of the model, if
     /// there are too many steps, or if there is an error: a run tells it.
-    #[expect(clippy::mutable_key_type, reason = "the hash memo of parameters is no part of them")]
+    #[expect(clippy::mutable_key_type, reason = "the hash memo of parameters is not part of them")]
     pub(crate) fn of(job: &Job, given: &[usize], control: &Control) -> Option<Self> {
         if job.options.mode == Mode::Compat {
             return None;

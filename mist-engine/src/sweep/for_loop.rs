@@ -125,7 +125,7 @@ impl ForState {
 
 impl PreparedValue {
     /// Under compat the entry gets the number that NIST's program reads in a text of sixteen
-    /// digits. A value that is not finite is written as text, which is no number: the step is
+    /// digits. A value that is not finite is written as text, which is not a number: the step is
     /// refused.
     fn new(x: f64, is_text: bool, mode: Mode, shows: bool) -> Self {
         let number = match mode {

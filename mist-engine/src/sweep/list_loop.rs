@@ -66,7 +66,7 @@ impl ListState {
 }
 
 /// The content that a value becomes: under compat the number that NIST's program reads in its
-/// text, or the text. A value that is not finite is text, which is no number: the step is refused.
+/// text, or the text. A value that is not finite is text, which is not a number: the step is refused.
 fn content(value: Value, mode: Mode) -> EntryContent {
     if mode == Mode::Sound && value.as_slice().iter().all(|x| x.is_finite()) {
         return EntryContent::Value(value);

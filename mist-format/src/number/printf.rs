@@ -97,7 +97,7 @@ impl PrintfFormat {
     }
 
     /// True if two numbers in this format can be told apart: there is text before or behind them
-    /// that is no part of a number, or their width has room for a blank.
+    /// that is not part of a number, or their width has room for a blank.
     pub fn separates(&self) -> bool {
         let is_separator = |c: char| !(c.is_alphanumeric() || "+-.".contains(c));
         // Sign, point and an exponent of five characters.

@@ -15,7 +15,7 @@ use mist_engine::{
         MaterialError, eval,
         lobes::{LobeOutput, Lobes},
     },
-    request::EvaluationRequest,
+    request::{EvaluationRequest, MaterialDescription},
 };
 use scattering::Mode;
 use serde::Deserialize;
@@ -35,6 +35,7 @@ use crate::{
     compute::WorkSize,
     limits::{LimitReached, ServeLimits},
     materials::StoredMaterial,
+    program::admit as admit_program,
 };
 
 /// Bytes of a pair of vectors: six f32.
@@ -73,6 +74,9 @@ pub(super) async fn angles(
 ) -> Result<Response, ApiError> {
     let mode = if options.compat { Mode::Compat } else { Mode::Sound };
     let request: EvaluationRequest = serde_json::from_str(&body).map_err(MaterialError::Json)?;
+    if let MaterialDescription::Program(program) = &request.material {
+        admit_program(program, &client.limits)?;
+    }
     let evaluations = request.evaluations();
     refuse_more(evaluations, "evaluations", ("max-evaluations", client.limits.max_evaluations))?;
     let size = if evaluations <= AT_ONCE { WorkSize::Small } else { WorkSize::Large };

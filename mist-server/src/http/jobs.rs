@@ -22,13 +22,15 @@ use super::{
     error::ApiError,
     extract::{Accept, PathParameters, Query},
     problem::Problems,
+    program::ProgramRequest,
     run::{ResultsText, answer},
+    schema::ProgramBody,
     state::App,
 };
 use crate::{
     compute::WorkSize,
     jobs::{JobState, JobStatus, ServiceJob},
-    program::{ProgramError, ProgramRequest},
+    program::{ProgramError, compiled},
 };
 
 /// An accepted job.
@@ -72,7 +74,7 @@ pub(super) struct TableOptions {
     operation_id = "submit_job",
     tag = "jobs",
     request_body(content(
-        (ProgramRequest = "application/json"), (String = "application/x-mist"),
+        (ProgramBody = "application/json"), (String = "application/x-mist"),
     )),
     responses(
         (status = 202, description = "It is kept and will run", body = Accepted,
@@ -83,20 +85,16 @@ pub(super) struct TableOptions {
 pub(super) async fn submit(
     State(app): State<App>,
     client: Client,
-    body: ProgramRequest,
+    ProgramRequest(body): ProgramRequest,
 ) -> Result<Response, ApiError> {
     app.jobs.admit(&client.name)?;
     // An invalid program is refused now, not when the job runs.
     let limits = app.limits.clone();
     let body = app
-        .compute_in_time(
-            &client,
-            WorkSize::Small,
-            move |_| -> Result<ProgramRequest, ProgramError> {
-                body.compile(limits.engine(limits.max_job_time))?;
-                Ok(body)
-            },
-        )
+        .compute_in_time(&client, WorkSize::Small, move |_| {
+            compiled(&body, limits.engine(limits.max_job_time))?;
+            Ok::<_, ProgramError>(body)
+        })
         .await??;
     let status = app.blocking(move |app| Ok(app.jobs.submit(&body, client.name)?)).await?;
     let location = HeaderValue::from_str(&format!("/v1/jobs/{}", status.id));

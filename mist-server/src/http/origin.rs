@@ -107,7 +107,7 @@ fn host(headers: &HeaderMap) -> Result<Authority, ApiError> {
     };
     let read = host.to_str().ok().filter(|host| !host.contains('@'));
     let read = read.and_then(|host| host.parse().ok());
-    read.ok_or_else(|| ApiError::Query("the header Host is no host".into()))
+    read.ok_or_else(|| ApiError::Query("the header Host is not a host".into()))
 }
 
 fn header<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Option<&'a str> {

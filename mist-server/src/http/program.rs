@@ -1,9 +1,13 @@
 //! Programs in the bodies of requests: JSON with data files, or the bare text.
 
 use axum::extract::{FromRequest, Request};
+use mist_engine::request::ProgramDescription;
 
 use super::{error::ApiError, extract::MistText, state::App};
-use crate::program::ProgramRequest;
+use crate::program::admit;
+
+/// The program in the body of a request; it is not too long.
+pub(super) struct ProgramRequest(pub(super) ProgramDescription);
 
 impl FromRequest<App> for ProgramRequest {
     type Rejection = ApiError;
@@ -14,9 +18,9 @@ impl FromRequest<App> for ProgramRequest {
             serde_json::from_str(&text)
                 .map_err(|error| ApiError::Body(format!("not a program with its files: {error}")))?
         } else {
-            Self::bare(text)
+            ProgramDescription::bare(text)
         };
-        program.admit(&app.limits)?;
-        Ok(program)
+        admit(&program, &app.limits)?;
+        Ok(Self(program))
     }
 }

@@ -6,22 +6,22 @@ use axum::{
     http::header,
     response::{IntoResponse, Response},
 };
-use mist_engine::Control;
+use mist_engine::{Control, request::ProgramDescription};
 use mist_runner::results::Results;
 use serde::Serialize;
 use serde_json::json;
 use utoipa::ToSchema;
 
 use super::{
-    client::Client, error::ApiError, extract::Accept, problem::Problems, state::App,
-    warnings::with_diagnostics,
+    client::Client, error::ApiError, extract::Accept, problem::Problems, program::ProgramRequest,
+    schema::ProgramBody, state::App, warnings::with_diagnostics,
 };
 use crate::{
     compute::WorkSize,
     failure::{LocatedDiagnostic, located},
     limits::ServeLimits,
     output::BoundedOutput,
-    program::{ProgramError, ProgramRequest},
+    program::{ProgramError, compiled},
 };
 
 /// Run a program with its data files; the answer is its table: text as the program writes it,
@@ -33,7 +33,7 @@ use crate::{
     path = "/v1/run",
     tag = "programs",
     request_body(content(
-        (ProgramRequest = "application/json"), (String = "application/x-mist"),
+        (ProgramBody = "application/json"), (String = "application/x-mist"),
     )),
     responses(
         (status = 200, description = "The table", content(
@@ -46,7 +46,7 @@ pub(super) async fn run(
     State(app): State<App>,
     accept: Accept,
     client: Client,
-    body: ProgramRequest,
+    ProgramRequest(body): ProgramRequest,
 ) -> Result<Response, ApiError> {
     let limits = client.limits.clone();
     let work = move |control: &Control| attempt(&body, &limits, control);
@@ -60,18 +60,18 @@ pub(super) async fn run(
     path = "/v1/check",
     tag = "programs",
     request_body(content(
-        (ProgramRequest = "application/json"), (String = "application/x-mist"),
+        (ProgramBody = "application/json"), (String = "application/x-mist"),
     )),
     responses((status = 200, description = "Empty if nothing is", body = Checked), Problems),
 )]
 pub(super) async fn check(
     State(app): State<App>,
     client: Client,
-    body: ProgramRequest,
+    ProgramRequest(body): ProgramRequest,
 ) -> Result<Json<Checked>, ApiError> {
     let limits = client.limits.clone();
     let work = move |_: &Control| {
-        let job = body.compile(limits.engine(limits.max_time))?;
+        let job = compiled(&body, limits.engine(limits.max_time))?;
         Ok::<_, ProgramError>(located(&body.program, &job.slips()))
     };
     let found = app.compute_in_time(&client, WorkSize::Small, work).await?;
@@ -104,11 +104,11 @@ pub(super) struct ResultsText {
 
 /// Runs the program.
 fn attempt(
-    body: &ProgramRequest,
+    body: &ProgramDescription,
     limits: &ServeLimits,
     control: &Control,
 ) -> Result<ResultsText, ProgramError> {
-    let job = body.compile(limits.engine(limits.max_time))?;
+    let job = compiled(body, limits.engine(limits.max_time))?;
     let mut sink = BoundedOutput::new(limits.max_output);
     let mut warnings = job.slips();
     let summary =

@@ -8,8 +8,6 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use utoipa::{IntoParams, ToSchema};
 
-use crate::program::ProgramRequest;
-
 /// The name of a material.
 #[derive(Deserialize, IntoParams)]
 #[into_params(parameter_in = Path)]
@@ -45,7 +43,25 @@ pub(super) enum MaterialBody {
     /// A model with the parameters that differ from its defaults.
     Model(ModelBody),
     /// A program with its data files.
-    Program(ProgramRequest),
+    Program(ProgramBody),
+}
+
+/// A program with its data files; it sees no others.
+#[derive(Deserialize, ToSchema)]
+#[expect(dead_code, reason = "describes the API")]
+pub(super) struct ProgramBody {
+    /// The text of the program.
+    program: String,
+    /// Texts of data files by the names that the program gives them.
+    #[serde(default)]
+    files: BTreeMap<String, String>,
+    /// Give NIST's tables, its defects included.
+    #[serde(default)]
+    compat: bool,
+    /// Name of the job.
+    job: Option<String>,
+    /// Seed of the Monte Carlo modes; 1.
+    seed: Option<u64>,
 }
 
 /// A model with the parameters that differ from its defaults.
@@ -62,16 +78,20 @@ pub(super) struct ModelBody {
     files: Option<BTreeMap<String, String>>,
 }
 
-/// The input of `mist eval`.
+/// The input of `mist eval`: the keys of a material beside those of the evaluation.
 #[derive(Deserialize, ToSchema)]
 #[expect(dead_code, reason = "describes the API")]
 pub(super) struct EvalRequest {
-    /// Name of the model's class.
+    /// Name of the model's class; it or `program` is required.
     #[schema(example = "Facet_BRDF_Model")]
-    model: String,
+    model: Option<String>,
     /// Dotted names with values, or a list of pairs.
     #[schema(example = json!({"substrate": "(1.5,0)"}))]
     parameters: Option<Value>,
+    /// The text of a program whose first step is the material, in place of `model`.
+    program: Option<String>,
+    /// The program has NIST's numbers, defects included.
+    compat: Option<bool>,
     /// `psps`, `xyxy` or `plane`.
     #[schema(example = "psps")]
     basis: Option<String>,

@@ -2,6 +2,8 @@
 
 use std::sync::{Arc, atomic::Ordering};
 
+use mist_engine::request::ProgramDescription;
+
 use super::{
     error::JobsError,
     job::{ServiceJob, json},
@@ -13,7 +15,6 @@ use crate::{
     compute::WorkPool,
     keys::hexadecimal,
     limits::ServeLimits,
-    program::ProgramRequest,
     store::{Store, StoreError},
 };
 
@@ -66,7 +67,7 @@ impl Jobs {
     /// If too many wait, or it cannot be stored.
     pub(crate) fn submit(
         &self,
-        request: &ProgramRequest,
+        request: &ProgramDescription,
         client: String,
     ) -> Result<JobStatus, JobsError> {
         let mut id = [0; ID_BYTES];

@@ -5,7 +5,7 @@ use std::{
     sync::{PoisonError, atomic::Ordering},
 };
 
-use mist_engine::{Control, Failure, OutputStream, RunSummary, Sink, compile};
+use mist_engine::{Control, Failure, OutputStream, RunSummary, Sink, request::ProgramDescription};
 use rise_bridge::{formats, write::Style};
 
 use super::{
@@ -18,7 +18,7 @@ use crate::{
     compute::{WorkFailure, WorkPool},
     failure::{FailureReport, located},
     output::BoundedOutput,
-    program::{ProgramError, ProgramRequest},
+    program::ProgramError,
 };
 
 /// Runs `job` to its end, or until the service stops.
@@ -66,7 +66,7 @@ fn as_cancelled(failure: WorkFailure) -> Result<Result<(), Failure>, WorkFailure
 }
 
 /// The program of a job, which only the store has while it waits.
-fn program(scheduler: &Scheduler, job: &ServiceJob) -> io::Result<ProgramRequest> {
+fn program(scheduler: &Scheduler, job: &ServiceJob) -> io::Result<ProgramDescription> {
     let text = scheduler.store.program(&job.id)?;
     let text = text.ok_or_else(|| io::Error::other("the program of the job is not kept"))?;
     Ok(serde_json::from_str(&text)?)
@@ -81,10 +81,14 @@ impl Sink for LiveOutput<'_> {
     }
 }
 
-fn attempt(scheduler: &Scheduler, job: &ServiceJob, body: &ProgramRequest) -> Result<(), Failure> {
+fn attempt(
+    scheduler: &Scheduler,
+    job: &ServiceJob,
+    body: &ProgramDescription,
+) -> Result<(), Failure> {
     let limits = &scheduler.limits;
-    let options = body.options(limits.engine(limits.max_job_time));
-    let compiled = compile(&body.program, body.files(), &options).map_err(Failure::Program)?;
+    let options = body.options("job", limits.engine(limits.max_job_time));
+    let compiled = body.compile(&options, None).map_err(Failure::Program)?;
     let header_lines = compiled.program().files.headers().count();
     job.status.send_modify(|status| status.header_lines = header_lines);
     *job.output.lock().unwrap_or_else(PoisonError::into_inner) =

@@ -41,6 +41,28 @@ async fn the_body_of_mist_eval_has_the_answer_of_mist_eval() {
 }
 
 #[tokio::test]
+async fn a_program_is_evaluated_as_the_model_of_its_first_step() {
+    let geometries = r#""geometries":[{"theta_i":0.5,"theta_s":0.2,"phi_s":0.3}]"#;
+    let model = format!(
+        r#"{{"model":"Facet_BRDF_Model","parameters":{{"substrate":"(1.5,0)"}},{geometries}}}"#
+    );
+    let text = "MODEL = Facet_BRDF_Model\nVARIABLES:\n#lambda = 0.532\n$substrate = (1.5,0)\n\
+        incidentangle = 0.5  incidentpol = (1,0,0,0)  rotation = 0\nEND\n\
+        VARY: END INTEGRALS: END OUTPUTS: END FILES: END\n";
+    let program = format!(r#"{{"program":{},{geometries}}}"#, serde_json::json!(text));
+    let app = App::default();
+    let [of_model, of_program] =
+        [&model, &program].map(|body| ask(&app, Method::POST, "/v1/evaluate", None, body.as_str()));
+    let (of_model, of_program) = (of_model.await, of_program.await);
+    assert_eq!(of_program.status, StatusCode::OK, "{}", of_program.text);
+    assert_eq!(of_program.json()["mueller"], of_model.json()["mueller"]);
+    let both = program.replacen('{', r#"{"model":"Facet_BRDF_Model","#, 1);
+    let refused = ask(&app, Method::POST, "/v1/evaluate", None, &both).await;
+    assert_eq!(refused.status, StatusCode::BAD_REQUEST);
+    assert!(refused.text.contains("exclude each other"), "{}", refused.text);
+}
+
+#[tokio::test]
 async fn vectors_have_the_matrices_of_their_angles() {
     let app = App::default();
     ask(&app, Method::PUT, "/v1/materials/glass", None, GLASS).await;

@@ -37,7 +37,7 @@ pub struct SpectraRow {
 ///
 /// # Errors
 ///
-/// If the text is no table, is cut off or was changed, or if its columns are not the wavelengths
+/// If the text is not a table, is cut off or was changed, or if its columns are not the wavelengths
 /// that its header names.
 pub fn mspd(text: &str) -> Result<SpectraTable, ReadError> {
     let text = TextTable::parse(text)?;

@@ -24,7 +24,11 @@ mod painter;
 
 use std::collections::BTreeMap;
 
-use mist_engine::{Files, material::Material};
+use mist_engine::{
+    Files,
+    material::{Material, MaterialError},
+    request::MaterialDescription,
+};
 
 use super::scene::SceneChunk;
 use crate::export::ExportError;
@@ -112,7 +116,14 @@ fn commented(
         match (name.as_str(), value.as_str()) {
             ("material", file) => {
                 let text = files.read(file).map_err(|error| wrong(error.to_string()))?;
-                material = Some(Material::from_json(&text)?);
+                let described = MaterialDescription::parse(&text).map_err(MaterialError::Json)?;
+                let MaterialDescription::Model(model) = described else {
+                    return Err(wrong(format!(
+                        "{file} is a program; a scene needs a model with parameters: \
+                         {{\"model\": …, \"parameters\": {{…}}}}"
+                    )));
+                };
+                material = Some(model);
             }
             ("model", model) => {
                 material = Some(Material {

@@ -113,7 +113,7 @@ pub struct LobeSupport {
 
 impl LobeSupport {
     /// The cone behind a face, seen from inside of a medium of the relative index `index`, as it is
-    /// outside: its rim is no circle any more. None if it is reflected totally.
+    /// outside: its rim is not a circle any more. None if it is reflected totally.
     pub(crate) fn refracted(self, index: f64) -> Option<Self> {
         let (x, y) = (index * self.axis.x, index * self.axis.y);
         let cos = (1.0 - x * x - y * y).sqrt();

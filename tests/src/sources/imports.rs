@@ -43,7 +43,7 @@ struct Contents {
 /// Every use of one module of the crate by another.
 ///
 /// A name that a module only re-exports counts as a use of the module that declares it. A `pub use`
-/// by itself is no use: it only declares.
+/// by itself is not a use: it only declares.
 pub fn edges(tree: &CrateTree) -> Edges {
     let contents: Vec<Contents> = tree.modules.iter().map(contents).collect();
     let crates = super::packages().iter().map(|name| name.replace('-', "_")).collect();

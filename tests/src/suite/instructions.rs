@@ -66,7 +66,7 @@ const DEFAULT_RELATIVE: f64 = 1e-12;
 ///
 /// # Errors
 ///
-/// The number of the line that is no instruction, and why.
+/// The number of the line that is not an instruction, and why.
 pub fn read(text: &str) -> Result<SuiteProgram, String> {
     let mut program = SuiteProgram { text: text.to_owned(), ..SuiteProgram::default() };
     let mut lines = text.lines().enumerate().peekable();
@@ -120,7 +120,7 @@ fn outcome(text: &str, body: &[&str]) -> Result<ExpectedOutcome, String> {
         "results" => {
             let number = |key: &str, default: f64| match value_after(rest, key) {
                 None => Ok(default),
-                Some(text) => text.parse::<f64>().map_err(|_| format!("`{text}` is no number")),
+                Some(text) => text.parse::<f64>().map_err(|_| format!("`{text}` is not a number")),
             };
             let relative = number("within", DEFAULT_RELATIVE)?;
             let of_row = number("of-row", 0.0)?;

@@ -57,7 +57,7 @@ pub(super) fn check(request: &TableRequest) -> Result<(), MaterialError> {
     }
     let bad = request.wavelengths.iter().find(|nm| !(nm.is_finite() && **nm > 0.0));
     if let Some(nm) = bad {
-        return Err(MaterialError::request("wavelengths", format!("{nm} nm is no wavelength")));
+        return Err(MaterialError::request("wavelengths", format!("{nm} nm is not a wavelength")));
     }
     let TableDirections::Grid(grid) = &request.directions else { return Ok(()) };
     for (name, nodes, low, high) in [

@@ -6,7 +6,7 @@
 
 use super::cell::{CubatureCell, MeasuredCell};
 
-/// Largest ratio of the length of a cell to that of its neighbour: its eight nodes are no further
+/// Largest ratio of the length of a cell to that of its neighbour: its eight nodes are not further
 /// apart than the shorter one is long.
 const RATIO: f64 = 8.0;
 

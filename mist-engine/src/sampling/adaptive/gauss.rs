@@ -67,7 +67,7 @@ pub(super) fn weighted<R: Real>(values: &[R; SIDE], weights: &[f64; SIDE]) -> R 
 /// The rule is wrong by the 16th and later coefficients of the function. How large those are, the
 /// first seven tell: where they fall fast from one pair to the next, they go on falling, by the
 /// fourth power of the ratio of two pairs; where they fall slowly, as for kinks and square roots,
-/// the later ones are no smaller (J. Berntsen and T. O. Espelid, *Error estimation in automatic
+/// the later ones are not smaller (J. Berntsen and T. O. Espelid, *Error estimation in automatic
 /// quadrature routines*, ACM Trans. Math. Softw. 17, 233–252 (1991)). The error is never less than
 /// the rounding of a sum of this size.
 #[inline(always)]
