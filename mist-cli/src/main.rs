@@ -6,6 +6,7 @@ mod bridge;
 mod check;
 mod color;
 mod compare_spectra;
+mod completions;
 mod convert;
 mod diff;
 mod error;
@@ -14,9 +15,11 @@ mod export;
 mod fit;
 mod flags;
 mod fmt;
+mod help;
 mod input;
 mod interrupt;
 mod key;
+mod man;
 mod material;
 mod merge;
 mod models;
@@ -35,12 +38,12 @@ mod vary;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use reporter::Reporter;
 
 /// From the physics of a material to its colour in a renderer.
 #[derive(Parser)]
-#[command(name = "mist", version, after_help = EXAMPLES)]
+#[command(name = "mist", version, after_help = EXAMPLES, disable_help_subcommand = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -55,9 +58,10 @@ Examples:
   mist check paint.mist               look for mistakes without running
   mist models Facet_BRDF_Model        what a model is and which parameters it has
   mist table paint.json --grid thetai=0:10:80,thetas=0:10:80,phis=0:20:180 --lambda 400:20:700 -o paint.mtab
-  mist export gold.json --wavelengths 450,500,550,600,650 -o gold.pbsdf
+  mist export gold.json --lambda 450,500,550,600,650 -o gold.pbsdf
   mist diff test.exr reference.exr    which part of a difference an observer sees
   mist serve                          answer renderers on http://127.0.0.1:8650
+  mist help units                     a topic; `mist help` lists them
 
 Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.";
 
@@ -81,6 +85,9 @@ enum Command {
     Tolerance(tolerance::ToleranceArgs),
     Serve(Box<serve::ServeArgs>),
     Key(key::KeyArgs),
+    Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
+    Help(help::HelpArgs),
 }
 
 /// Runs the command that the arguments of the process name.
@@ -106,6 +113,9 @@ fn main() -> ExitCode {
         Command::Eval(args) => eval::eval(&args, reporter),
         Command::Serve(args) => serve::serve(&args),
         Command::Key(args) => key::key(&args),
+        Command::Completions(args) => completions::completions(&args, Cli::command()),
+        Command::Man(args) => man::man(&args, Cli::command()),
+        Command::Help(args) => help::help(&args, Cli::command()),
     };
     match done.and_then(|()| reporter.check()) {
         Ok(()) => ExitCode::SUCCESS,

@@ -7,6 +7,7 @@ use super::{error::CommandError, flags::JsonFlag, output::print};
 mod json;
 mod kinds;
 mod markdown;
+mod search;
 mod text;
 
 /// List the models and what they are made of, or describe one.
@@ -15,19 +16,26 @@ mod text;
 Examples:
   mist models
   mist models Shadowed_Facet_BRDF_Model
+  mist models --search metallic paint
   mist models Gaussian_PSD_Function --json")]
 pub(super) struct ModelsArgs {
     /// A model, or a class that models are made of.
     name: Option<String>,
     #[command(flatten)]
     json: JsonFlag,
+    /// Find models by words: a material, a property, an author.
+    #[arg(long, value_name = "WORD", num_args = 1.., conflicts_with_all = ["name", "json"])]
+    search: Vec<String>,
     /// The manual page docs/models.md.
-    #[arg(long, conflicts_with_all = ["name", "json"])]
+    #[arg(long, conflicts_with_all = ["name", "json", "search"])]
     markdown: bool,
 }
 
 /// Prints the list or the description.
 pub(super) fn models(args: &ModelsArgs) -> Result<(), CommandError> {
+    if !args.search.is_empty() {
+        return print(&search::search(&args.search).map_err(CommandError::Refused)?);
+    }
     let Some(name) = &args.name else {
         return print(&match (args.json.json, args.markdown) {
             (true, _) => json::list(),
