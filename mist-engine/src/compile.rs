@@ -4,6 +4,7 @@
 //! notes the faults that it finds.
 
 mod binder;
+mod detector;
 mod integrals;
 mod loops;
 mod model;
@@ -13,9 +14,9 @@ mod variables;
 use std::{collections::BTreeSet, sync::Arc};
 
 use mist_format::{Diagnostic, Program, expr::Value, program::parse};
-use scattering::Basis;
+use scattering::{Basis, Mode};
 
-pub(crate) use variables::initial_values;
+pub(crate) use variables::{early_constants, initial_values};
 
 use crate::{
     DataFiles, Files, Job, Options,
@@ -38,7 +39,10 @@ pub fn compile(
     files: Arc<dyn Files + Send + Sync>,
     options: &Options,
 ) -> Result<Job, Vec<Diagnostic>> {
-    let program = parse(source, dialect(options.mode))?;
+    let mut program = parse(source, dialect(options.mode))?;
+    if options.mode == Mode::Sound {
+        detector::complete(&mut program);
+    }
     let library = DataFiles::new(files, dialect(options.mode));
     let (plan, initial) = plan(program, &library, options)?;
     let graph = Arc::new(DependencyGraph::new(&plan, options.mode));
@@ -72,10 +76,14 @@ fn plan(
     let required = variables::required(&program, &mut binder);
     let entries = variables::entries(&program.variables, class, &mut binder);
     let mut faults = Vec::new();
-    let initial =
-        initial_values((&entries, &program.variables), (&binder.names, library), &[], |fault| {
-            faults.push(fault)
-        });
+    let constants = early_constants(&required, options.mode);
+    let initial = initial_values(
+        (&entries, &program.variables),
+        (&binder.names, library),
+        constants,
+        &[],
+        |fault| faults.push(fault),
+    );
     binder.faults.append(&mut faults);
     let integrals = integrals::integrals(&program.integrals, &mut binder);
     let outputs = outputs::outputs(&program.outputs, &mut binder);

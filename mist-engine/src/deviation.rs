@@ -32,6 +32,8 @@ macro_rules! engine_deviations {
 }
 
 engine_deviations! {
+    /// `pi` and `deg` are not defined while VARIABLES is read for the first time.
+    LateConstants => "defined everywhere, unless the program defines them",
     /// A FOR loop with a negative last value does not reach it: `FROM -3 TO -1 BY 1` ends at −2.
     LostNegativeEnd => "ends at −1",
     /// A sub-parameter keeps its default after its parent was replaced.

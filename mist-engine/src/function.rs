@@ -14,7 +14,7 @@ use mist_format::{Diagnostic, program::VariableKind, suggestion::did_you_mean};
 use crate::{
     Control, Failure, Files, Job, Options, OutputStream, Sink, TableLine,
     colour::ColourTable,
-    compile::{compile, initial_values},
+    compile::{compile, early_constants, initial_values},
     run::ReusableSteps,
 };
 
@@ -240,6 +240,7 @@ impl Job {
         let initial = initial_values(
             (&plan.entries, &plan.program.variables),
             (&plan.names, &self.library),
+            early_constants(&plan.required, self.options.mode),
             &given,
             |fault| faults.push(fault),
         );

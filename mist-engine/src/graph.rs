@@ -162,13 +162,8 @@ impl DependencyGraph {
 fn predefined(plan: &Plan, mode: Mode) -> Vec<(u32, f64)> {
     let required = &plan.required;
     let integration = if EngineDeviation::GridIntegrals.applies_in(mode) { 2.0 } else { 20.0 };
-    let pi = 4.0 * 1f64.atan();
-    let all = [
-        (required.integrationmode, integration),
-        (required.polygonsides, 360.0),
-        (required.pi, pi),
-        (required.deg, pi / 180.0),
-    ];
+    let settings = [(required.integrationmode, integration), (required.polygonsides, 360.0)];
+    let all = settings.into_iter().chain(required.constants());
     let is_needed = |slot: u32| {
         for entry in &plan.entries {
             if entry.expr.iter().any(|expr| expr.slots().contains(&slot)) {
@@ -180,7 +175,7 @@ fn predefined(plan: &Plan, mode: Mode) -> Vec<(u32, f64)> {
         }
         true
     };
-    all.into_iter().filter(|(slot, _)| is_needed(*slot)).collect()
+    all.filter(|(slot, _)| is_needed(*slot)).collect()
 }
 
 /// The slots that something else writes besides one entry.

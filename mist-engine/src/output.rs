@@ -253,9 +253,9 @@ impl<'j> Outputs<'j> {
         if are_there && !self.hides {
             return;
         }
-        let pi = 4.0 * 1f64.atan();
-        self.scope.set_number(self.job.plan.required.pi, pi);
-        self.scope.set_number(self.job.plan.required.deg, pi / 180.0);
+        for (slot, x) in self.job.plan.required.constants() {
+            self.scope.set_number(slot, x);
+        }
         for (slot, value) in self.job.plan.reads.iter().zip(&*step.values) {
             if value.is_some() {
                 self.scope.put(*slot, value.as_ref());

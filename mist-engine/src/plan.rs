@@ -2,7 +2,7 @@
 //!
 //! All types are plain data, made by `compile` and immutable afterwards.
 
-use std::sync::Arc;
+use std::{f64::consts::PI, sync::Arc};
 
 use mist_format::{
     Program,
@@ -80,6 +80,13 @@ pub(crate) struct RequiredVariables {
     pub(crate) gives_mode: bool,
     pub(crate) pi: u32,
     pub(crate) deg: u32,
+}
+
+impl RequiredVariables {
+    /// The predefined constants pi and deg with their slots.
+    pub(crate) fn constants(&self) -> [(u32, f64); 2] {
+        [(self.pi, PI), (self.deg, PI / 180.0)]
+    }
 }
 
 /// A loop.

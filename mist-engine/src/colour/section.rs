@@ -88,7 +88,6 @@ impl SectionCompiler<'_> {
         let wavelength = wavelength.expect("a missing wavelength is a fault");
         let roles = self.roles(&wavelength, &angles);
         let text = |key| self.color.last(key).map(|text| text.as_str().to_owned());
-        let files = [ColourKey::Table, ColourKey::Spectra, ColourKey::Json, ColourKey::Plot];
         let place = self.color.entries.first().map(|entry| entry.name.clone()).unwrap_or_default();
         Ok(ColourSection {
             wavelength,
@@ -101,8 +100,20 @@ impl SectionCompiler<'_> {
             patch: text(ColourKey::Patch).unwrap_or_else(|| "point".into()),
             material: text(ColourKey::Material).unwrap_or_else(|| self.context.job.to_owned()),
             place,
-            files: files.into_iter().filter_map(|key| Some((key, text(key)?))).collect(),
+            files: self.files(),
         })
+    }
+
+    /// The names of the files; a table and a plot if the program names none.
+    fn files(&self) -> Vec<(ColourKey, String)> {
+        let keys = [ColourKey::Table, ColourKey::Spectra, ColourKey::Json, ColourKey::Plot];
+        let named = |key| Some((key, self.color.last(key)?.as_str().to_owned()));
+        let files: Vec<_> = keys.into_iter().filter_map(named).collect();
+        if !files.is_empty() || self.context.mode == Mode::Compat {
+            return files;
+        }
+        let name = |extension| format!("{}.{extension}", self.context.job);
+        vec![(ColourKey::Table, name("mtab")), (ColourKey::Plot, name("svg"))]
     }
 
     fn fault(&mut self, code: &'static str, text: &SourceText, error: &impl std::fmt::Display) {
@@ -126,6 +137,9 @@ impl SectionCompiler<'_> {
         if let Some(text) = self.color.last(ColourKey::Wavelength) {
             return self.expr(text);
         }
+        if self.context.variables.iter().any(|variable| variable.name.as_str() == "#lambda") {
+            return self.implied("#lambda");
+        }
         let message = "COLOR needs the wavelength: an expression in micrometres";
         self.faults.push(
             Diagnostic::error("color/wavelength", self.color.span, message)
@@ -144,7 +158,12 @@ impl SectionCompiler<'_> {
         if !variables.chain(labels).any(|known| known == name) {
             return None;
         }
-        let mut expr = Expr::compile(name, dialect(self.context.mode)).ok()?;
+        self.implied(name)
+    }
+
+    /// An expression that the program does not contain.
+    fn implied(&mut self, text: &str) -> Option<PlacedExpression> {
+        let mut expr = Expr::compile(text, dialect(self.context.mode)).ok()?;
         expr.bind(|name| self.context.names.slot(name));
         Some(PlacedExpression { text: None, expr })
     }

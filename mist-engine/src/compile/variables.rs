@@ -7,11 +7,12 @@ use mist_format::{
     expr::{Expr, OperandStack, Value},
     program::{ProgramVariable, VariableKind},
 };
-use scattering::Class;
+use scattering::{Class, Mode};
 
 use super::{binder::Binder, outputs::varies};
 use crate::{
     DataFiles,
+    deviation::EngineDeviation,
     fault::placed,
     parameters::ParameterPath,
     plan::{RequiredVariables, VariableEntry},
@@ -68,17 +69,29 @@ pub(super) fn entries(
     entries
 }
 
-/// Evaluates every entry once, in order, with what is defined before it. Entries of `given` have
-/// those values. An entry that fails is handed to `note` and has no value.
+/// The constants that VARIABLES may read.
+pub(crate) fn early_constants(required: &RequiredVariables, mode: Mode) -> Vec<(u32, Value)> {
+    if EngineDeviation::LateConstants.applies_in(mode) {
+        return Vec::new();
+    }
+    required.constants().into_iter().map(|(slot, x)| (slot, x.into())).collect()
+}
+
+/// Evaluates every entry once, in order, with what is defined before it; at first the `constants`.
+/// Entries of `given` have those values. An entry that fails is handed to `note` and has no value.
 pub(crate) fn initial_values(
     (entries, variables): (&[VariableEntry], &[ProgramVariable]),
     (names, library): (&SlotNames, &DataFiles),
+    constants: Vec<(u32, Value)>,
     given: &[(usize, f64)],
     mut note: impl FnMut(Diagnostic),
 ) -> Vec<(u32, Value)> {
     let mut values = SlotValues::new(names.len(), library.clone());
     let mut stack = OperandStack::default();
-    let mut initial = Vec::new();
+    let mut initial = constants;
+    for (slot, value) in &initial {
+        values.put(*slot, Some(value));
+    }
     // Names whose own entry is wrong: their users are not blamed for it.
     let mut broken = BTreeSet::new();
     for (at, entry) in entries.iter().enumerate() {
@@ -111,14 +124,16 @@ pub(crate) fn initial_values(
     initial
 }
 
-/// pi and deg exist in every step, but not yet when VARIABLES is read.
+/// Predefined variables exist in every step, but not all of them while VARIABLES is read.
 fn predefined_help(diagnostic: Diagnostic, expr: &Expr) -> Diagnostic {
     let early = ["pi", "deg", "integrationmode", "polygonsides"];
     let reads_early = expr.names().iter().any(|name| early.contains(&name.as_str()));
     if reads_early && diagnostic.code == "expr/unknown-name" {
         return diagnostic
-            .note("pi, deg, integrationmode and polygonsides are not yet defined in VARIABLES")
-            .help("define pi = 4*atan(1) and deg = pi/180 at the top of VARIABLES");
+            .note(
+                "integrationmode, polygonsides and, with --compat, pi and deg are not yet defined",
+            )
+            .help("define it at the top of VARIABLES, such as pi = 4*atan(1), deg = pi/180");
     }
     diagnostic
 }

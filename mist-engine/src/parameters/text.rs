@@ -1,7 +1,7 @@
 //! The texts of numbers, integers and class names.
 
 use mist_format::{
-    number::{integer_prefix, number_prefix, whole_number},
+    number::{integer_prefix, number_prefix, whole_number, without_unit},
     suggestion::did_you_mean,
 };
 use scattering::{Family, Mode, registry, spec::number_text};
@@ -19,6 +19,12 @@ pub(super) fn number(text: &str, mode: Mode) -> Result<f64, SetError> {
         return Ok(prefix.value.unwrap_or(0.0));
     }
     let error = SetError::value(format!("{text:?} is not a number"));
+    let unit = prefix
+        .value
+        .and_then(|_| without_unit(text[..prefix.taken].trim(), text[prefix.taken..].trim()));
+    if let Some(help) = unit {
+        return Err(error.help(help));
+    }
     Err(match prefix.value {
         Some(x) => error.help(format!(
             "write {x}, or use `#` in place of `$` for an expression; NIST's program reads {x}"

@@ -57,6 +57,12 @@ pub enum ExprErrorKind {
         /// The deviation of NIST's program.
         deviation: TextDeviation,
     },
+    /// A number with a unit behind it.
+    #[error("a number has no unit")]
+    Unit {
+        /// The remedy.
+        help: String,
+    },
     /// More than [`MAX_TOKENS`] operands, operators and parentheses.
     #[error("the expression has more than {} operands and operators", MAX_TOKENS)]
     TooLong,
@@ -145,6 +151,7 @@ impl ExprError {
                 let (nist, instead) = explain(*deviation);
                 found("expr/quirk").help(instead).note(nist)
             }
+            ExprErrorKind::Unit { help } => found("expr/unit").help(help.clone()),
             ExprErrorKind::TooLong => {
                 found("expr/too-long").help("split it into several variables")
             }

@@ -19,7 +19,7 @@ use super::limits::MAX_TOKENS;
 use super::op::{Action, Op, Operation};
 use super::scalar;
 use crate::dialect::TextDeviation;
-use crate::number::{is_blank, number_prefix};
+use crate::number::{is_blank, number_prefix, unit_length, without_unit};
 use crate::span::Span;
 use frame::{FrameKind, OpenFrame};
 use interner::Interner;
@@ -235,11 +235,30 @@ impl<'t> Scan<'t> {
         if is_operator && self.rules.refuses(TextDeviation::OperatorLostToBlanks) {
             return Err(self.refused(TextDeviation::OperatorLostToBlanks, next, next + 1));
         }
+        if self.rules.refuses(TextDeviation::AdjacentOperands) {
+            self.check_unit(before, next)?;
+        }
         let is_operand = found.is_some_and(begins_operand);
         if is_operand && self.rules.refuses(TextDeviation::AdjacentOperands) {
             return Err(self.refused(TextDeviation::AdjacentOperands, next, next + 1));
         }
         Ok(())
+    }
+
+    /// Refuses a unit at `next` behind a number that ends at `before`.
+    fn check_unit(&self, before: usize, next: usize) -> Result<(), ScanError> {
+        let text = |bytes| std::str::from_utf8(bytes).unwrap_or_default();
+        let digits = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
+        let start = before - self.bytes[..before].iter().rev().take_while(|b| digits(b)).count();
+        if start > 0 && continues_name(self.bytes[start - 1]) {
+            return Ok(());
+        }
+        let length = unit_length(text(&self.bytes[next..]));
+        let unit = text(&self.bytes[next..next + length]);
+        match without_unit(text(&self.bytes[start..before]), unit) {
+            Some(help) => Err((start, next + length, ExprErrorKind::Unit { help })),
+            None => Ok(()),
+        }
     }
 
     fn open(&mut self, kind: FrameKind, negative: bool, start: usize) -> Result<Next, ScanError> {

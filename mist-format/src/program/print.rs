@@ -65,8 +65,11 @@ fn lines(program: &Program) -> Vec<PrintedLine> {
     lines
 }
 
-/// The cue of a section, its entries and its END.
+/// The cue of a section, its entries and its END; nothing if the section was left out.
 fn section(lines: &mut Vec<PrintedLine>, cue: &str, span: Span, entries: Vec<PrintedLine>) {
+    if span == Span::default() {
+        return;
+    }
     let start = Span::new(span.start, span.start + cue.len());
     lines.push(PrintedLine { text: cue.into(), level: 0, span: start, role: LineRole::Cue });
     lines.extend(entries);

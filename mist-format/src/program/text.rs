@@ -35,6 +35,15 @@ impl SourceText {
         Self { text, span, quoted, pieces }
     }
 
+    /// Another text that is taken to stand at the beginning of this one.
+    #[must_use]
+    pub fn with_text(&self, text: &str) -> Self {
+        let at = self.span.start;
+        // Every byte has the same place: no part of the text reaches beyond the program.
+        let pieces = (0..text.len().max(1)).map(|offset| (offset, at)).collect();
+        Self { text: text.to_owned(), span: self.span, quoted: false, pieces }
+    }
+
     /// The text without its location, for the comparison of programs in different layouts.
     pub fn without_location(self) -> Self {
         Self { span: Span::default(), pieces: vec![(0, 0)], ..self }

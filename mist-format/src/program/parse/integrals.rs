@@ -18,7 +18,7 @@ impl Parser<'_> {
         sections: &mut Sections,
         known: &[ProgramVariable],
     ) -> ParseResult<Vec<Integral>> {
-        let cue = self.cue(2)?;
+        let Some(cue) = self.cue(2)? else { return Ok(Vec::new()) };
         let folded = |variable: &ProgramVariable| variable.name.as_str().to_ascii_lowercase();
         let known: HashMap<String, Span> =
             known.iter().map(|variable| (folded(variable), variable.name.span())).collect();
@@ -117,7 +117,7 @@ impl Parser<'_> {
     }
 
     pub(super) fn outputs(&mut self, sections: &mut Sections) -> ParseResult<Vec<Output>> {
-        let cue = self.cue(3)?;
+        let Some(cue) = self.cue(3)? else { return Ok(Vec::new()) };
         let mut outputs = Vec::new();
         loop {
             let number = self.section_token(cue)?;
@@ -131,10 +131,33 @@ impl Parser<'_> {
             if is(&token, "END") && !token.is_quoted() {
                 self.refuse(TextDeviation::EmptyValue, token.span());
             }
-            let output = split_output(number, token);
+            let output = self.output(cue, number, token)?;
             self.check_output(&output);
             outputs.push(output);
         }
+    }
+
+    /// The output with a number, whose first word is `token`. Blanks may surround the equal sign
+    /// behind the label.
+    fn output(&mut self, cue: Span, number: SourceText, token: SourceText) -> ParseResult<Output> {
+        if token.is_quoted() || self.dialect.is_compat() {
+            return Ok(split_output(number, token));
+        }
+        let word = token.as_str();
+        let (label, expression) = match word.find('=') {
+            Some(at) if at > 0 && at + 1 == word.len() => {
+                (token.part(0..at), self.section_token(cue)?)
+            }
+            None if self.an_equal_sign_follows() => match self.section_token(cue)? {
+                alone if alone.as_str() == "=" => (token, self.section_token(cue)?),
+                joined => (token, joined.part(1..joined.as_str().len())),
+            },
+            _ => return Ok(split_output(number, token)),
+        };
+        if is(&expression, "END") {
+            self.refuse(TextDeviation::EmptyValue, expression.span());
+        }
+        Ok(Output { number, label, has_label: true, expression })
     }
 
     fn check_output_number(&mut self, number: &SourceText, expected: usize) -> ParseResult<()> {

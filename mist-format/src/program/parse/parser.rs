@@ -24,12 +24,60 @@ pub(super) struct Parser<'t> {
     /// A section cue that was read as something else, and the cue of its section. If reading fails
     /// later, an END is missing before it.
     pub(super) swallowed_cue: Option<(Span, Span)>,
+    /// True if sections between VARIABLES and COLOR may be left out.
+    pub(super) may_leave_out: bool,
+    /// True after a section that could not be read.
+    pub(super) has_failed: bool,
+    /// True if no further section can be found.
+    pub(super) has_ended: bool,
 }
 
 impl<'t> Parser<'t> {
     pub(super) fn new(text: &'t str, dialect: Dialect) -> Self {
-        let reader = Lexer::new(text);
-        Self { text, dialect, reader, found: Vec::new(), swallowed_cue: None }
+        Self {
+            text,
+            dialect,
+            reader: Lexer::new(text),
+            found: Vec::new(),
+            swallowed_cue: None,
+            may_leave_out: !dialect.is_compat() && has_colour(text),
+            has_failed: false,
+            has_ended: false,
+        }
+    }
+
+    /// Reads a section with `read`. After an error in it the next section that can be found is
+    /// read, so that its errors are reported, too; with NIST's dialect reading ends.
+    pub(super) fn section<T: Default>(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> ParseResult<T>,
+    ) -> T {
+        if self.has_ended {
+            return T::default();
+        }
+        read(self).unwrap_or_else(|Fatal| {
+            self.has_failed = true;
+            self.has_ended = self.dialect.is_compat() || !self.skip_to_cue();
+            T::default()
+        })
+    }
+
+    /// Moves to the next cue of a section; false if there is none, or the list of errors is full.
+    fn skip_to_cue(&mut self) -> bool {
+        if self.check_error_limit().is_err() {
+            return false;
+        }
+        if let Some((cue, _)) = self.swallowed_cue.take() {
+            self.reader.go_to(cue.start);
+            return true;
+        }
+        while let Ok(token) = self.reader.token() {
+            if !token.text.is_quoted() && CUES.iter().any(|cue| is(&token.text, cue)) {
+                self.reader.go_to(token.text.span().start);
+                return true;
+            }
+        }
+        false
     }
 
     /// Ends the reading when the list of errors is full.
@@ -168,6 +216,12 @@ impl<'t> Parser<'t> {
         self.found.push(found);
         Err(Fatal)
     }
+}
+
+/// True if the text has the cue of COLOR outside of comments.
+fn has_colour(text: &str) -> bool {
+    let code = |line: &'_ str| line.split(';').next().unwrap_or_default().to_ascii_uppercase();
+    text.lines().any(|line| code(line).split_ascii_whitespace().any(|word| word == CUES[5]))
 }
 
 pub(super) fn is(text: &SourceText, word: &str) -> bool {

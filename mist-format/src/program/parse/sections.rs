@@ -8,7 +8,7 @@ use super::super::tree::{
     ForLoop, ListLoop, Loop, Program, ProgramVariable, Sections, VariableKind,
 };
 use super::entries::{Assignment, ValueKind};
-use super::parser::{CUES, ParseResult, Parser, is};
+use super::parser::{CUES, Fatal, ParseResult, Parser, is};
 use crate::diagnostic::Diagnostic;
 use crate::span::Span;
 use crate::suggestion::did_you_mean;
@@ -16,13 +16,17 @@ use crate::suggestion::did_you_mean;
 impl Parser<'_> {
     pub(super) fn program(&mut self) -> ParseResult<Program> {
         let mut sections = Sections::default();
-        let model = self.model(&mut sections)?;
-        let variables = self.variables(&mut sections)?;
-        let loops = self.vary(&mut sections)?;
-        let integrals = self.integrals(&mut sections, &variables)?;
-        let outputs = self.outputs(&mut sections)?;
-        let files = self.files(&mut sections)?;
-        let colour = self.colour(&mut sections)?;
+        let all = &mut sections;
+        let model = self.section(|parser| parser.model(all));
+        let variables = self.section(|parser| parser.variables(all));
+        let loops = self.section(|parser| parser.vary(all));
+        let integrals = self.section(|parser| parser.integrals(all, &variables));
+        let outputs = self.section(|parser| parser.outputs(all));
+        let files = self.section(|parser| parser.files(all));
+        let colour = self.section(|parser| parser.colour(all));
+        if self.has_failed {
+            return Err(Fatal);
+        }
         let trailing = SourceText::new(self.reader.rest().trim_end(), self.reader.at());
         let (comments, blank_lines) = (Vec::new(), blank_lines(self.text));
         Ok(Program {
@@ -60,7 +64,7 @@ impl Parser<'_> {
     }
 
     fn variables(&mut self, sections: &mut Sections) -> ParseResult<Vec<ProgramVariable>> {
-        let cue = self.cue(0)?;
+        let Some(cue) = self.cue(0)? else { return Ok(Vec::new()) };
         let mut variables = Vec::new();
         loop {
             match self.assignment(cue, |name| match VariableKind::of(name) {
@@ -80,7 +84,7 @@ impl Parser<'_> {
     }
 
     fn vary(&mut self, sections: &mut Sections) -> ParseResult<Vec<Loop>> {
-        let cue = self.cue(1)?;
+        let Some(cue) = self.cue(1)? else { return Ok(Vec::new()) };
         let mut loops = Vec::new();
         loop {
             let word = self.section_token(cue)?;
@@ -127,7 +131,7 @@ impl Parser<'_> {
     }
 
     fn files(&mut self, sections: &mut Sections) -> ParseResult<FilesSection> {
-        let cue = self.cue(4)?;
+        let Some(cue) = self.cue(4)? else { return Ok(FilesSection::default()) };
         let mut entries = Vec::new();
         loop {
             match self.assignment(cue, |_| ValueKind::Texts)? {
@@ -213,27 +217,40 @@ impl Parser<'_> {
         key
     }
 
-    /// Reads the cue of a section and gives its span.
-    pub(super) fn cue(&mut self, section: usize) -> ParseResult<Span> {
+    /// Reads the cue of a section and gives its span; none if the section is left out.
+    pub(super) fn cue(&mut self, section: usize) -> ParseResult<Option<Span>> {
         let wanted = CUES[section];
+        let may_leave_out = self.has_failed || (section > 0 && self.may_leave_out);
         let token = match self.reader.token() {
             Ok(token) => token.text,
             Err(stop) => return self.stopped_before(stop, wanted),
         };
         if is(&token, wanted) {
-            return Ok(token.span());
+            return Ok(Some(token.span()));
+        }
+        if may_leave_out && CUES[section + 1..].iter().any(|later| is(&token, later)) {
+            self.reader.go_to(token.span().start);
+            return Ok(None);
         }
         let message = format!("missing {wanted} section cue, found `{token}`");
         let found = Diagnostic::error("program/section-cue", token.span(), message);
         let with_colon = format!("{}:", token.as_str());
-        self.fatal(if with_colon.eq_ignore_ascii_case(wanted) {
-            found.help(format!("write {wanted} as one word with its colon"))
-        } else {
-            found.help(
-                "the sections MODEL, VARIABLES:, VARY:, INTEGRALS:, OUTPUTS:, FILES: stand in this \
-                 order, each closed by END; they may be empty",
-            )
-        })
+        if with_colon.eq_ignore_ascii_case(wanted) {
+            return self.fatal(found.help(format!("write {wanted} as one word with its colon")));
+        }
+        let found = found.help(
+            "the sections MODEL, VARIABLES:, VARY:, INTEGRALS:, OUTPUTS:, FILES: stand in this \
+             order, each closed by END; they may be empty",
+        );
+        let Some(meant) = did_you_mean(&token.as_str().to_ascii_uppercase(), [wanted]) else {
+            return self.fatal(found);
+        };
+        if self.dialect.is_compat() {
+            return self.fatal(found.help(meant));
+        }
+        // The section is read as the one that was meant.
+        self.found.push(found.help(meant));
+        Ok(Some(token.span()))
     }
 }
 
