@@ -23,6 +23,7 @@ mod man;
 mod material;
 mod merge;
 mod models;
+mod new;
 mod output;
 mod preview;
 mod program;
@@ -54,6 +55,7 @@ struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
+  mist new --from metallic-paint      a commented program to begin with
   mist run paint.mist                 run a program, write its tables here
   mist check paint.mist               look for mistakes without running
   mist models Facet_BRDF_Model        what a model is and which parameters it has
@@ -67,6 +69,7 @@ Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong."
 
 #[derive(Subcommand)]
 enum Command {
+    New(new::NewArgs),
     Run(run::RunArgs),
     Merge(merge::MergeArgs),
     Check(check::CheckArgs),
@@ -95,6 +98,7 @@ fn main() -> ExitCode {
     let Cli { command, deny_warnings } = Cli::parse();
     let reporter = &Reporter::new(deny_warnings);
     let done = match command {
+        Command::New(args) => new::new(&args),
         Command::Run(args) => run::run(args, reporter),
         Command::Merge(args) => merge::merge(&args),
         Command::Check(args) => check::check(&args, reporter),

@@ -31,10 +31,12 @@ use super::{
 ///
 /// A MATERIAL.json is {"model": …, "parameters": {…}, "files": {…}}; of a program the model of
 /// its first step counts. The extension of the output tells its form: .mtab, .mspd, .json,
-/// .svg. Without --lambda the wavelengths are 360:5:830.
+/// .svg. Without --lambda the wavelengths are 360:5:830, without --grid the nodes are
+/// thetai=0:15:75,thetas=0:15:75,phis=0:30:180, without --output the file is NAME.mtab.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
+  mist table paint.json
   mist table paint.json --grid thetai=0:10:80,thetas=0:10:80,phis=0:20:180 --lambda 400:20:700 -o paint.mtab
   mist table paint.mist --patches patches.lst --lambda 360:10:750 --stokes -o paint.mtab
   mist table --from results.dat --wavelength wl:nm --value f0,f1,f2,f3 -o paint.mtab")]
@@ -98,14 +100,18 @@ pub(super) struct TableArgs {
     compat: CompatFlag,
     #[command(flatten)]
     threads: ThreadsFlag,
-    /// The file to write.
+    /// The file to write [default: the material's name with .mtab].
     #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    output: Option<PathBuf>,
 }
+
+/// The nodes without --grid and --patches.
+const DEFAULT_GRID: &str = "thetai=0:15:75,thetas=0:15:75,phis=0:30:180";
 
 /// Makes the table and writes it.
 pub(super) fn table(args: &TableArgs, reporter: &Reporter) -> Result<(), CommandError> {
-    let format = FileFormat::of_file(&args.output.to_string_lossy());
+    let output = args.output_file();
+    let format = FileFormat::of_file(&output.to_string_lossy());
     let writer = format.and_then(FileFormat::colours).ok_or_else(|| {
         let known = formats::extensions(formats::of_colours().map(|(format, _)| format));
         CommandError::Refused(format!("the name of the output ends with one of {known}"))
@@ -121,7 +127,7 @@ pub(super) fn table(args: &TableArgs, reporter: &Reporter) -> Result<(), Command
         None => args.computed(reporter)?,
     };
     let style = Style { digits: args.digits, xyz: args.xyz };
-    let written = colours::save(writer, &table, &args.output, style)
+    let written = colours::save(writer, &table, &output, style)
         .map_err(|error| CommandError::Failed(error.to_string()))?;
     for path in written {
         print(&format!("{}: {} rows\n", path.display(), table.rows.len()))?;
@@ -130,6 +136,16 @@ pub(super) fn table(args: &TableArgs, reporter: &Reporter) -> Result<(), Command
 }
 
 impl TableArgs {
+    /// The file to write: in the working folder, named after the material, if none is given.
+    fn output_file(&self) -> PathBuf {
+        let named = || {
+            let source = self.material.as_deref().or(self.from.as_deref());
+            let stem = source.and_then(Path::file_stem).unwrap_or("table".as_ref());
+            Path::new(stem).with_extension("mtab")
+        };
+        self.output.clone().unwrap_or_else(named)
+    }
+
     fn colours(&self) -> ColourQuery {
         ColourQuery {
             illuminant: Some(self.illuminant.illuminant.clone()),
@@ -162,8 +178,9 @@ impl TableArgs {
         let prepared = prepared(path, &source, self.compat.mode(), reporter)?;
         let patches = self.patches.as_deref().map(InputText::read).transpose()?;
         let patches = patches.map(|source| read::<PatchList>("patches", &source.text));
+        let no_patches = patches.is_none();
         let query = TableQuery {
-            grid: self.grid.clone(),
+            grid: self.grid.clone().or_else(|| no_patches.then(|| DEFAULT_GRID.to_owned())),
             patches: patches.transpose()?,
             patch: Some(self.patch.clone()),
             lambda: self.lambda.lambda.clone(),

@@ -45,6 +45,44 @@ fn every_example_writes_its_colour_table_and_its_picture() {
 }
 
 #[test]
+fn the_examples_are_formatted() {
+    let dir = folder();
+    for name in ["gold", "paint", "pearl", "jade", "paper"] {
+        for file in fs::read_dir(root(&format!("examples/{name}"))).unwrap() {
+            let path = file.unwrap().path();
+            if path.extension().is_some_and(|extension| extension == "mist") {
+                let words = ["fmt", "--check", &path.to_string_lossy()].map(str::to_owned);
+                assert_eq!(stdout(mist(dir.path()).args(words)), "", "{}", path.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_table_needs_no_options() {
+    let dir = folder();
+    fs::write(dir.path().join("white.json"), r#"{"model": "Lambertian_BRDF_Model"}"#).unwrap();
+    let said = stdout(mist(dir.path()).args(["table", "white.json"]));
+    assert_eq!(said, "white.mtab: 252 rows\n");
+}
+
+#[test]
+fn the_colour_of_a_spectrum_is_a_few_lines() {
+    let dir = folder();
+    let spectrum = "nm,R\n380,0.5\n480,0.5\n580,0.5\n680,0.5\n780,0.5\n";
+    fs::write(dir.path().join("grey.csv"), spectrum).unwrap();
+    let said = stdout(mist(dir.path()).args(["color", "grey.csv"]));
+    assert!(said.contains("Lab           76.07  0.00  0.00\n"), "{said}");
+    assert!(said.contains("sRGB          #bcbcbc  188 188 188\n"), "{said}");
+    let case = r#"{"wavelengths":[380,580,780],"values":[0.5,0.5,0.5],"illuminant":"D65"}"#;
+    for (words, count) in [(&["color"][..], 1), (&["color", "--all"], 32)] {
+        let said = stdout(mist(dir.path()).args(words).write_stdin(case));
+        let answer: serde_json::Value = serde_json::from_str(&said).unwrap();
+        assert_eq!(answer["results"][0]["rgb"].as_array().unwrap().len(), count, "{said}");
+    }
+}
+
+#[test]
 fn a_wrong_program_is_refused_with_its_place_and_leaves_no_file() {
     let dir = folder();
     let program = fs::read_to_string(root("examples/gold/gold.mist")).unwrap();
