@@ -46,6 +46,7 @@ pub(crate) fn of_material(py: Python<'_>, error: &MaterialError) -> PyErr {
         MaterialError::Request(_) | MaterialError::Patch { .. } => ("MistError", "request"),
         MaterialError::NotFinite(_) => ("MistError", "model/not-finite"),
         MaterialError::Cancelled => ("MistError", "run/cancelled"),
+        MaterialError::Program(_) => ("ProgramError", "program"),
     };
     exception(py, name, &error.to_string(), code, error.part(), error.help())
 }

@@ -1,11 +1,23 @@
 """Numbers and threads of mist; private, the package ``mist`` has the public names."""
 
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 version: str
+
+__all__ = [
+    "Material",
+    "Program",
+    "Result",
+    "families",
+    "forget_threads",
+    "formatted",
+    "set_threads",
+    "threads",
+    "version",
+]
 
 def families() -> str: ...
 def threads() -> int: ...
@@ -13,6 +25,7 @@ def set_threads(count: int | None = None) -> None: ...
 def forget_threads() -> None: ...
 def formatted(text: str, compat: bool) -> str: ...
 
+@final
 class Material:
     def __new__(
         cls,
@@ -63,6 +76,7 @@ class Material:
         basis: str,
     ) -> NDArray[np.complex128]: ...
 
+@final
 class Program:
     def __new__(
         cls,
@@ -86,6 +100,7 @@ class Program:
         self, values: list[tuple[str, float]], threads: int | None, progress: Any
     ) -> Result: ...
 
+@final
 class Result:
     @property
     def results(self) -> str: ...
