@@ -13,6 +13,7 @@ mod pool;
 mod program;
 mod registry;
 mod result;
+mod shards;
 mod watch;
 
 use pyo3::prelude::*;
@@ -33,4 +34,6 @@ mod _native {
     use crate::registry::families;
     #[pymodule_export]
     use crate::result::NativeResult;
+    #[pymodule_export]
+    use crate::shards::merge_shards;
 }

@@ -31,6 +31,7 @@ from .material import Material
 from .models import ModelObject, find
 from .program import Program, run
 from .result import Result
+from .sweeps import paired, read_shards, sweep
 from .values import complex_text, number_text
 
 #: Radians of a degree.
@@ -57,8 +58,11 @@ __all__ = [
     "find",
     "models",
     "number_text",
+    "paired",
+    "read_shards",
     "run",
     "set_threads",
+    "sweep",
     "threads",
 ]
 

@@ -1,5 +1,6 @@
 """Numbers and threads of mist; private, the package ``mist`` has the public names."""
 
+from pathlib import Path
 from typing import Any, final
 
 import numpy as np
@@ -14,6 +15,7 @@ __all__ = [
     "families",
     "forget_threads",
     "formatted",
+    "merge_shards",
     "set_threads",
     "threads",
     "version",
@@ -24,6 +26,7 @@ def threads() -> int: ...
 def set_threads(count: int | None = None) -> None: ...
 def forget_threads() -> None: ...
 def formatted(text: str, compat: bool) -> str: ...
+def merge_shards(shards: list[Path], output: Path) -> int: ...
 
 @final
 class Material:
