@@ -32,6 +32,11 @@ pub(crate) fn exception(
     make().map_or_else(|error| error, PyErr::from_value)
 }
 
+/// A `MistError` without a remedy.
+pub(crate) fn plain(py: Python<'_>, message: &str, code: &str, part: Option<&str>) -> PyErr {
+    exception(py, "MistError", message, code, part, None)
+}
+
 /// The exception of an error of a material.
 pub(crate) fn of_material(py: Python<'_>, error: &MaterialError) -> PyErr {
     let (name, code) = match error {

@@ -3,6 +3,7 @@
 //! The package in `python/mist` has the public names; it converts arguments and finds what to show.
 //! Every function here that computes releases Python's lock, and looks for signals meanwhile.
 
+mod analysis;
 mod angles;
 mod error;
 mod evaluate;
@@ -24,6 +25,10 @@ mod _native {
     #[pymodule_export]
     #[allow(non_upper_case_globals)]
     const version: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
+    use crate::analysis::{
+        ciede2000, colour_table, colour_tolerance, colours, export_file, fit_program,
+    };
     #[pymodule_export]
     use crate::material::NativeMaterial;
     #[pymodule_export]

@@ -199,6 +199,16 @@ impl NativeMaterial {
 }
 
 impl NativeMaterial {
+    /// The material of the engine.
+    pub(crate) fn prepared(&self) -> &PreparedMaterial {
+        &self.prepared
+    }
+
+    /// True if it gives NIST's numbers.
+    pub(crate) fn is_compat(&self) -> bool {
+        self.prepared.mode() == Mode::Compat
+    }
+
     fn of_prepared(prepared: PreparedMaterial, files: BTreeMap<String, Arc<str>>) -> Self {
         Self {
             entries: prepared.parameters().entries(),

@@ -10,7 +10,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mist_engine::{Control, Job, Limits, Options, Warning, compile};
+use mist_engine::{
+    Control, Job, Limits, Options, Warning, compile,
+    function::{FunctionError, ProgramFunction},
+};
 use mist_format::{Diagnostic, Dialect};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use scattering::Mode;
@@ -31,6 +34,7 @@ pub(crate) struct NativeProgram {
     job: Job,
     text: String,
     files: Arc<RecordedFiles>,
+    options: Options,
 }
 
 #[pymethods]
@@ -53,7 +57,7 @@ impl NativeProgram {
         let files = Arc::new(RecordedFiles::beside(files, &path.unwrap_or_default()));
         let compiled = py.detach(|| compile(&text, files.clone(), &options));
         match compiled {
-            Ok(job) => Ok(Self { job, text, files }),
+            Ok(job) => Ok(Self { job, text, files, options }),
             Err(diagnostics) => Err(error::of_program(py, &diagnostics, &text)),
         }
     }
@@ -146,6 +150,16 @@ impl NativeProgram {
 }
 
 impl NativeProgram {
+    /// The text.
+    pub(crate) fn source(&self) -> &str {
+        &self.text
+    }
+
+    /// The program as a function of the variables `names`.
+    pub(crate) fn function(&self, names: &[String]) -> Result<ProgramFunction, FunctionError> {
+        ProgramFunction::new(&self.text, self.files.clone(), self.options.clone(), names)
+    }
+
     /// The job with other values for some variables.
     fn with_values(&self, py: Python<'_>, values: Vec<(String, f64)>) -> PyResult<Job> {
         if values.is_empty() {

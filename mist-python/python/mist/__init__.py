@@ -15,6 +15,7 @@ import math
 import os
 
 from . import _native, models
+from .analysis import color, delta_e, fit, tolerance
 from ._native import set_threads, threads
 from .errors import (
     Diagnostic,
@@ -32,6 +33,7 @@ from .models import ModelObject, find
 from .program import Program, run
 from .result import Result
 from .sweeps import paired, read_shards, sweep
+from .table import Table, export, table
 from .values import complex_text, number_text
 
 #: Radians of a degree.
@@ -53,9 +55,14 @@ __all__ = [
     "Result",
     "ServiceError",
     "StepError",
+    "Table",
+    "color",
     "complex_text",
     "deg",
+    "delta_e",
+    "export",
     "find",
+    "fit",
     "models",
     "number_text",
     "paired",
@@ -63,8 +70,21 @@ __all__ = [
     "run",
     "set_threads",
     "sweep",
+    "table",
     "threads",
+    "tolerance",
 ]
+
+
+
+def __getattr__(name: str):
+    """``Service`` with its modules for HTTP, when it is used."""
+    if name == "Service":
+        from .service import Service
+
+        return Service
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 if hasattr(os, "register_at_fork"):
     # A forked process has none of the threads.

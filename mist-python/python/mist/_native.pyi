@@ -12,7 +12,13 @@ __all__ = [
     "Material",
     "Program",
     "Result",
+    "ciede2000",
+    "colour_table",
+    "colour_tolerance",
+    "colours",
+    "export_file",
     "families",
+    "fit_program",
     "forget_threads",
     "formatted",
     "merge_shards",
@@ -21,7 +27,24 @@ __all__ = [
     "version",
 ]
 
+def ciede2000(first: list[float], second: list[float]) -> float: ...
+def colour_table(
+    material: Material, name: str, query: str, formats: list[str]
+) -> list[str]: ...
+def colour_tolerance(program: Program, vary: list[str], step: float) -> str: ...
+def colours(request: str) -> str: ...
+def export_file(
+    material: Material,
+    path: Path,
+    wavelengths: str | None,
+    grid: str | None,
+    rgb: bool,
+    plugin: bool,
+) -> tuple[bytes, str]: ...
 def families() -> str: ...
+def fit_program(
+    program: Program, measured: str, vary: list[str], arguments: dict[str, Any]
+) -> str: ...
 def threads() -> int: ...
 def set_threads(count: int | None = None) -> None: ...
 def forget_threads() -> None: ...

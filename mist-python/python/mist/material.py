@@ -339,6 +339,20 @@ class Material:
         form = [DIGEST_FORM, model, parameters, files, mode]
         return hashlib.sha256(json.dumps(form).encode()).hexdigest()
 
+    # Tables and files.
+
+    def table(self, **request: Any):
+        """Its colours over directions: see :func:`mist.table`."""
+        from .table import table
+
+        return table(self, **request)
+
+    def export(self, path: Any, **request: Any) -> str:
+        """Writes the file of a renderer: see :func:`mist.export`."""
+        from .table import export
+
+        return export(self, path, **request)
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Material):
             return NotImplemented
