@@ -4,7 +4,6 @@ use std::{fmt::Write as _, path::PathBuf};
 
 use mist_engine::Warning;
 use mist_format::number::general;
-use mist_runner::files::AtomicFile;
 use rise_bridge::{read, write};
 use serde_json::json;
 use spectra::{
@@ -17,6 +16,7 @@ use super::{
     flags::{IlluminantFlag, JsonFlag, ObserverFlag},
     input::InputText,
     output::print,
+    plot,
     reporter::Reporter,
 };
 
@@ -46,7 +46,7 @@ pub(super) struct CompareSpectraArgs {
     illuminant: IlluminantFlag,
     #[command(flatten)]
     observer: ObserverFlag,
-    /// Write a picture of the spectra: .svg.
+    /// Write a picture of the spectra: .svg, .png or .pdf.
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     #[command(flatten)]
@@ -118,9 +118,7 @@ pub(super) fn compare_spectra(
     if let Some(path) = &args.plot {
         let pictures: Vec<([&str; 2], &SpectrumComparison)> =
             found.iter().map(|(names, comparison)| (*names, comparison)).collect();
-        AtomicFile::write(path, &write::plot_comparisons(&pictures)).map_err(|error| {
-            CommandError::Failed(format!("cannot write {}: {error}", path.display()))
-        })?;
+        plot::save(path, write::plot_comparisons(&pictures))?;
     }
     reporter.check()?;
     let under = format!("{}, {}", illuminant.name(), observer.name());

@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 
 use mist_format::convert::ConvertError;
-use mist_runner::files::AtomicFile;
 
 use super::{
     error::{CommandError, ExitStatus},
-    output::print,
+    output::{print, write_file},
     report::{self, MessageFormat},
 };
 
@@ -34,9 +33,7 @@ pub(super) fn convert(args: &ConvertArgs) -> Result<(), CommandError> {
         mist_format::convert::convert(&bytes).map_err(|error| refused(error, args, &bytes))?;
     match &args.output {
         None => print(&text),
-        Some(path) => AtomicFile::write(path, &text).map_err(|error| {
-            CommandError::Failed(format!("cannot write {}: {error}", path.display()))
-        }),
+        Some(path) => write_file(path, text.as_bytes()),
     }
 }
 

@@ -6,14 +6,20 @@ use std::{
 };
 
 use mist_format::number::general;
-use mist_runner::files::AtomicFile;
 use pictures::{
     difference::{self, ComparisonSettings, DetectionSummary, PictureDifference},
     image::{Encoding, Image, PictureFormat},
     visible::Viewing,
 };
+use rise_bridge::write::{self, Graph, Series};
 
-use super::{error::CommandError, flags::JsonFlag, output::print, threads::pool};
+use super::{
+    error::CommandError,
+    flags::JsonFlag,
+    output::{print, write_file},
+    plot,
+    threads::pool,
+};
 
 /// Compare two pictures: which part of the difference an observer sees.
 ///
@@ -26,7 +32,8 @@ use super::{error::CommandError, flags::JsonFlag, output::print, threads::pool};
 Examples:
   mist diff render.png photo.png
   mist diff test.exr reference.exr --compat --json --display-size 0.375x0.300 --display-pixels 1280x1024 --distance 0.5
-  mist diff test.hdr reference.hdr --scale 179 --map seen.png --overlay where.png")]
+  mist diff test.hdr reference.hdr --scale 179 --map seen.png --overlay where.png
+  mist diff render.png photo.png --plot seen.pdf")]
 pub(super) struct DiffArgs {
     /// Picture to judge: .png, .exr, .hdr, .pfm.
     test: PathBuf,
@@ -61,6 +68,10 @@ pub(super) struct DiffArgs {
     /// Write the reference in grey with what is seen in colour: yellow above 75 %, red above 95 %.
     #[arg(long, value_name = "FILE")]
     overlay: Option<PathBuf>,
+    /// Draw the part of the pixels over the probability with which a difference is seen: .svg, .png or
+    /// .pdf.
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
 }
 
 /// Two numbers with an x between them.
@@ -91,12 +102,33 @@ pub(super) fn diff(args: &DiffArgs) -> Result<(), CommandError> {
     if let (Some(path), Some(format)) = (&args.map, formats[0]) {
         // Probabilities are written as they are, in PNG too.
         let encoding = if format == PictureFormat::Png { Encoding::Srgb } else { Encoding::Linear };
-        write(path, &found.map_image(encoding), format)?;
+        save(path, &found.map_image(encoding), format)?;
     }
     if let (Some(path), Some(format)) = (&args.overlay, formats[1]) {
-        write(path, &found.overlay(), format)?;
+        save(path, &found.overlay(), format)?;
+    }
+    if let Some(path) = &args.plot {
+        plot::save(path, write::plot_graphs("visible differences", &[graph(&found)]))?;
     }
     print(&if args.json.json { format!("{}\n", found.json()) } else { describe(&found) })
+}
+
+/// The part of the pixels whose difference is seen with more than a probability.
+fn graph(found: &PictureDifference) -> Graph {
+    let points = |above: &dyn Fn(f64) -> f64| {
+        (0..100).map(|percent| f64::from(percent) / 100.0).map(|p| (p, above(p))).collect()
+    };
+    Graph {
+        across: "probability with which an observer sees the difference".into(),
+        up: "pixels above it (%)".into(),
+        series: vec![Series {
+            label: "HDR-VDP".into(),
+            points: points(&|p| found.map.percent_above(p)),
+            ..Series::default()
+        }],
+        is_linear: true,
+        ..Graph::default()
+    }
 }
 
 /// The format that a picture called `path` is written in.
@@ -120,12 +152,11 @@ fn read(path: &Path) -> Result<Image, CommandError> {
     Image::read(&bytes).map_err(|error| CommandError::Refused(format!("{name}: {error}")))
 }
 
-fn write(path: &Path, image: &Image, format: PictureFormat) -> Result<(), CommandError> {
-    let failed = |error: &dyn std::fmt::Display| {
+fn save(path: &Path, image: &Image, format: PictureFormat) -> Result<(), CommandError> {
+    let bytes = image.write(format).map_err(|error| {
         CommandError::Failed(format!("cannot write {}: {error}", path.display()))
-    };
-    let bytes = image.write(format).map_err(|error| failed(&error))?;
-    AtomicFile::write_bytes(path, &bytes).map_err(|error| failed(&error))
+    })?;
+    write_file(path, &bytes)
 }
 
 /// The numbers for people.

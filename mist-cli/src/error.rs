@@ -32,6 +32,8 @@ pub(super) enum ExitStatus {
     Failed,
     /// The program or the arguments are wrong.
     Refused,
+    /// The user stopped it.
+    Interrupted,
 }
 
 impl ExitStatus {
@@ -45,6 +47,8 @@ impl ExitStatus {
             Self::Success => ExitCode::SUCCESS,
             Self::Failed => ExitCode::from(1),
             Self::Refused => ExitCode::from(2),
+            // That of a shell for Ctrl-C.
+            Self::Interrupted => ExitCode::from(130),
         }
     }
 }

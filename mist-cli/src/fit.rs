@@ -1,17 +1,23 @@
 //! `mist fit`: variables of a program from measured values.
 
-use std::{collections::BTreeMap, path::PathBuf};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 use mist_engine::{
     Control,
     fit::{self, Fit, FitError, FitSettings, MeasuredTable},
+    function::ProgramFunction,
 };
 use mist_format::number::general;
+use rise_bridge::write::{self, Graph};
 
 use super::{
     error::{CommandError, ExitStatus},
     input::InputText,
     output::print,
+    plot,
     program::ProgramInput,
     reporter::Reporter,
     vary::{self, VaryArgs},
@@ -30,6 +36,7 @@ use super::{
 Examples:
   mist fit glass.mist --measured scan.dat --vary s,gain
   mist fit glass.mist --measured scan.csv --vary s,n --start s=0.2 --bounds s=0.01:1 --json
+  mist fit glass.mist --measured scan.dat --vary s --plot fit.pdf
 
 The intervals are those of Student's t with the scatter of the residuals; with --absolute the
 uncertainties in the file are taken as standard deviations.")]
@@ -57,6 +64,9 @@ pub(super) struct FitArgs {
     /// Iterations at most.
     #[arg(long, value_name = "N", default_value_t = 100)]
     iterations: usize,
+    /// Draw measured values as dots and fitted ones as curves: .svg, .png or .pdf.
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
 }
 
 fn start(text: &str) -> Result<(String, f64), String> {
@@ -88,11 +98,41 @@ pub(super) fn fit(args: &FitArgs, reporter: &Reporter) -> Result<(), CommandErro
         iterations: args.iterations,
     };
     let run = |control: &Control| fit::fit(&program, &measured, &settings, control);
-    match args.vary.watch("fit", run)? {
+    let found = args.vary.watch("fit", run)?;
+    if let (Ok(found), Some(path)) = (&found, &args.plot) {
+        draw(path, (&program, &measured), found, args)?;
+    }
+    match found {
         Ok(found) if args.vary.json.json => print(&vary::json(&found, &reporter.warnings())?),
         Ok(found) => print(&describe(&found)),
         Err(error) => Err(stop(&error, &input.source, args, reporter)),
     }
+}
+
+/// Draws the fitted outputs and their measured values over the last loop.
+fn draw(
+    path: &Path,
+    (program, measured): (&ProgramFunction, &MeasuredTable),
+    found: &Fit,
+    args: &FitArgs,
+) -> Result<(), CommandError> {
+    let values: Vec<f64> = found.parameters.iter().map(|parameter| parameter.value).collect();
+    let run = |control: &Control| fit::compared(program, measured, &values, control);
+    let all = args.vary.watch("plot", run)?;
+    let all = all.map_err(|error| CommandError::Failed(error.to_string()))?;
+    let [loops, outputs] = program.titles();
+    let place = |at: usize, loops: &[String]| {
+        loops.last().and_then(|cell| cell.trim().parse().ok()).unwrap_or(at as f64 + 1.0)
+    };
+    let across = loops.last().map_or("row", String::as_str);
+    let graph = |(output, title): (usize, &String)| {
+        let here = all.iter().enumerate().filter(|(_, value)| value.output == output);
+        let values: Vec<(f64, f64, f64)> =
+            here.map(|(at, v)| (place(at, &v.loops), v.measured, v.computed)).collect();
+        (!values.is_empty()).then(|| plot::comparison(title, across, &values))
+    };
+    let graphs: Vec<Graph> = outputs.iter().enumerate().filter_map(graph).collect();
+    plot::save(path, write::plot_graphs("fit", &graphs))
 }
 
 fn stop(error: &FitError, source: &InputText, args: &FitArgs, reporter: &Reporter) -> CommandError {

@@ -1,6 +1,6 @@
 //! The program `mist`. Each command has a file of its own with its arguments, help and work.
 //!
-//! Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.
+//! Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong, 130 interrupted.
 
 mod bridge;
 mod check;
@@ -25,6 +25,7 @@ mod merge;
 mod models;
 mod new;
 mod output;
+mod plot;
 mod preview;
 mod program;
 mod progress;
@@ -51,6 +52,9 @@ struct Cli {
     /// Fail if there is a warning; warnings that are known before the work stop it.
     #[arg(long, global = true)]
     deny_warnings: bool,
+    /// Print errors, warnings and what was asked for; no progress, notes or names of files.
+    #[arg(long, short, global = true)]
+    quiet: bool,
 }
 
 const EXAMPLES: &str = "\
@@ -65,7 +69,7 @@ Examples:
   mist serve                          answer renderers on http://127.0.0.1:8650
   mist help units                     a topic; `mist help` lists them
 
-Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong.";
+Exit codes: 0 good, 1 the run failed, 2 the program or the arguments are wrong, 130 interrupted.";
 
 #[derive(Subcommand)]
 enum Command {
@@ -95,8 +99,11 @@ enum Command {
 
 /// Runs the command that the arguments of the process name.
 fn main() -> ExitCode {
-    let Cli { command, deny_warnings } = Cli::parse();
-    let reporter = &Reporter::new(deny_warnings);
+    let Cli { command, deny_warnings, quiet } = Cli::parse();
+    let reporter = &Reporter::new(deny_warnings, quiet);
+    if quiet {
+        progress::be_quiet();
+    }
     let done = match command {
         Command::New(args) => new::new(&args),
         Command::Run(args) => run::run(args, reporter),

@@ -1,8 +1,13 @@
-//! Standard output.
+//! Standard output, and files that are written at once.
 
-use std::io::{ErrorKind, Write};
+use std::{
+    io::{ErrorKind, Write},
+    path::Path,
+};
 
-use super::error::CommandError;
+use mist_runner::files::AtomicFile;
+
+use super::{error::CommandError, progress, report};
 
 /// Writes `text` to standard output.
 ///
@@ -17,4 +22,19 @@ pub(super) fn print(text: &str) -> Result<(), CommandError> {
             other.map_err(|error| CommandError::Failed(format!("cannot write the output: {error}")))
         }
     }
+}
+
+/// Writes the file `path`; a note tells that it replaces an older one, unless the command is quiet.
+///
+/// # Errors
+///
+/// If it cannot be written.
+pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
+    let replaces = AtomicFile::write_bytes(path, bytes).map_err(|error| {
+        CommandError::Failed(format!("cannot write {}: {error}", path.display()))
+    })?;
+    if replaces && !progress::is_quiet() {
+        report::print_line(&format!("note: {} replaces an older file", path.display()));
+    }
+    Ok(())
 }

@@ -1,11 +1,28 @@
 //! TerminalProgress on a terminal; silence elsewhere.
 
-use std::{io::IsTerminal, time::Duration};
+use std::{
+    io::IsTerminal,
+    sync::atomic::{AtomicBool, Ordering},
+    time::Duration,
+};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Steps of a bar: finer than any terminal shows.
 const STEPS: u64 = 10_000;
+
+/// True if the command is quiet.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Lets the command show no progress.
+pub(crate) fn be_quiet() {
+    IS_QUIET.store(true, Ordering::Relaxed);
+}
+
+/// True if the command is quiet.
+pub(crate) fn is_quiet() -> bool {
+    IS_QUIET.load(Ordering::Relaxed)
+}
 
 /// The progress of one run.
 #[derive(Clone, Debug)]
@@ -14,9 +31,10 @@ pub(crate) struct TerminalProgress {
 }
 
 impl TerminalProgress {
-    /// A bar with `label` before it, drawn on standard error if that is a terminal.
+    /// A bar with `label` before it, drawn on standard error if that is a terminal and the command is
+    /// not quiet.
     pub(crate) fn new(label: &str) -> Self {
-        let target = match std::io::stderr().is_terminal() {
+        let target = match std::io::stderr().is_terminal() && !is_quiet() {
             true => ProgressDrawTarget::stderr_with_hz(5),
             false => ProgressDrawTarget::hidden(),
         };
@@ -34,6 +52,20 @@ impl TerminalProgress {
     pub(crate) fn set(&self, part: f64) {
         // In range by the clamp.
         self.bar.set_position((part.clamp(0.0, 1.0) * STEPS as f64) as u64);
+    }
+
+    /// Shows the bar with `label` before it.
+    pub(crate) fn show(&self, label: &str) {
+        self.bar.set_prefix(label.to_owned());
+    }
+
+    /// Takes the bar away until it is set again, so that lines can be printed.
+    pub(crate) fn hide(&self) {
+        self.bar.suspend(|| ());
+        if !self.bar.is_hidden() {
+            self.bar.set_draw_target(ProgressDrawTarget::hidden());
+            self.bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
+        }
     }
 
     /// Takes the bar away.

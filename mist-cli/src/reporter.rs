@@ -8,6 +8,7 @@ use mist_format::{Diagnostic, LineIndex};
 use super::{
     error::{CommandError, ExitStatus},
     input::InputText,
+    output::print,
     report::{self, MessageFormat},
 };
 
@@ -16,6 +17,8 @@ use super::{
 pub(super) struct Reporter {
     /// True if a warning is a reason to fail.
     denies: bool,
+    /// True if only errors, warnings and what was asked for are printed.
+    is_quiet: bool,
     printed: Mutex<Printed>,
 }
 
@@ -28,9 +31,22 @@ struct Printed {
 }
 
 impl Reporter {
-    /// A reporter; with `denies` commands that have warned fail.
-    pub(super) fn new(denies: bool) -> Self {
-        Self { denies, printed: Mutex::default() }
+    /// A reporter; with `denies` commands that have warned fail, with `is_quiet` they print no notes
+    /// and no messages about files that were written.
+    pub(super) fn new(denies: bool, is_quiet: bool) -> Self {
+        Self { denies, is_quiet, printed: Mutex::default() }
+    }
+
+    /// Prints a message about work that is done, unless quiet.
+    pub(super) fn say(&self, text: &str) -> Result<(), CommandError> {
+        if self.is_quiet { Ok(()) } else { print(text) }
+    }
+
+    /// Prints a note on standard error, unless quiet.
+    pub(super) fn note(&self, line: &str) {
+        if !self.is_quiet {
+            report::print_line(line);
+        }
     }
 
     /// Prints warnings about the file or request called `subject`, one line each.
@@ -137,7 +153,7 @@ mod tests {
         let line = one_line("request", &warning);
         assert_eq!(line, "warning[angle/degrees]: request: theta_i = 45 looks like degrees; x");
         for (denies, refused) in [(false, false), (true, true)] {
-            let reporter = Reporter::new(denies);
+            let reporter = Reporter::new(denies, false);
             assert!(reporter.check().is_ok());
             reporter.warn("request", &[warning.clone(), warning.clone()]);
             assert_eq!(reporter.warnings().len(), 1);

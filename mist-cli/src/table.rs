@@ -10,11 +10,11 @@ use mist_engine::{
     },
     request::{ColourQuery, IncidentLight, PatchList, TableQuery, read},
 };
-use mist_runner::{colours, files::DiskFiles};
-use rise_bridge::{
-    formats::{self, FileFormat},
-    write::Style,
+use mist_runner::{
+    colours,
+    files::{DiskFiles, WrittenFile},
 };
+use rise_bridge::{formats::ColourFormat, write::Style};
 use scattering::Basis;
 
 use super::{
@@ -22,7 +22,7 @@ use super::{
     flags::{CompatFlag, IlluminantFlag, LambdaFlag, ObserverFlag},
     input::InputText,
     material::{prepared, refused},
-    output::print,
+    plot,
     reporter::Reporter,
     threads::ThreadsFlag,
 };
@@ -31,12 +31,13 @@ use super::{
 ///
 /// A MATERIAL.json is {"model": …, "parameters": {…}, "files": {…}}; of a program the model of
 /// its first step counts. The extension of the output tells its form: .mtab, .mspd, .json,
-/// .svg. Without --lambda the wavelengths are 360:5:830, without --grid the nodes are
+/// .csv, .svg, .png, .pdf. Without --lambda the wavelengths are 360:5:830, without --grid the nodes are
 /// thetai=0:15:75,thetas=0:15:75,phis=0:30:180, without --output the file is NAME.mtab.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
   mist table paint.json
+  mist table paint.json -o paint.csv --plot paint.png
   mist table paint.json --grid thetai=0:10:80,thetas=0:10:80,phis=0:20:180 --lambda 400:20:700 -o paint.mtab
   mist table paint.mist --patches patches.lst --lambda 360:10:750 --stokes -o paint.mtab
   mist table --from results.dat --wavelength wl:nm --value f0,f1,f2,f3 -o paint.mtab")]
@@ -100,6 +101,12 @@ pub(super) struct TableArgs {
     compat: CompatFlag,
     #[command(flatten)]
     threads: ThreadsFlag,
+    /// Draw the table into this .svg, .png or .pdf, too.
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Refuse to replace a file that exists.
+    #[arg(long)]
+    no_clobber: bool,
     /// The file to write [default: the material's name with .mtab].
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -111,11 +118,14 @@ const DEFAULT_GRID: &str = "thetai=0:15:75,thetas=0:15:75,phis=0:30:180";
 /// Makes the table and writes it.
 pub(super) fn table(args: &TableArgs, reporter: &Reporter) -> Result<(), CommandError> {
     let output = args.output_file();
-    let format = FileFormat::of_file(&output.to_string_lossy());
-    let writer = format.and_then(FileFormat::colours).ok_or_else(|| {
-        let known = formats::extensions(formats::of_colours().map(|(format, _)| format));
+    let format = ColourFormat::of_file(&output.to_string_lossy()).ok_or_else(|| {
+        let known = ColourFormat::extensions();
         CommandError::Refused(format!("the name of the output ends with one of {known}"))
     })?;
+    if args.no_clobber && output.exists() {
+        let error = format!("{} exists, and --no-clobber is given", output.display());
+        return Err(CommandError::Refused(error));
+    }
     if !(1..=17).contains(&args.digits) {
         return Err(CommandError::Refused(format!(
             "--digits is from 1 to 17, not {}",
@@ -127,10 +137,15 @@ pub(super) fn table(args: &TableArgs, reporter: &Reporter) -> Result<(), Command
         None => args.computed(reporter)?,
     };
     let style = Style { digits: args.digits, xyz: args.xyz };
-    let written = colours::save(writer, &table, &output, style)
-        .map_err(|error| CommandError::Failed(error.to_string()))?;
-    for path in written {
-        print(&format!("{}: {} rows\n", path.display(), table.rows.len()))?;
+    let failed = |error: colours::SaveError| CommandError::Failed(error.to_string());
+    let mut written = colours::save(format, &table, &output, style).map_err(failed)?;
+    if let Some(path) = &args.plot {
+        let format = plot::format(path)?;
+        written.extend(colours::save(format, &table, path, style).map_err(failed)?);
+    }
+    for WrittenFile { path, replaces, .. } in written {
+        let replaced = if replaces { " (replaces an older file)" } else { "" };
+        reporter.say(&format!("{}: {} rows{replaced}\n", path.display(), table.rows.len()))?;
     }
     Ok(())
 }

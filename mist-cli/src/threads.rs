@@ -2,7 +2,12 @@
 
 use mist_engine::Control;
 
-use super::{error::CommandError, interrupt, progress::TerminalProgress};
+use super::{
+    error::{CommandError, ExitStatus},
+    interrupt,
+    progress::TerminalProgress,
+    report,
+};
 
 /// The flag `--threads`.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -44,6 +49,10 @@ impl ThreadsFlag {
         };
         let done = pool.install(|| work(&control));
         progress.finish();
+        if control.is_cancelled() {
+            report::print_line("interrupted: no unfinished file is left");
+            return Err(CommandError::Reported(ExitStatus::Interrupted));
+        }
         Ok(done)
     }
 }

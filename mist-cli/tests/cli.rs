@@ -134,7 +134,7 @@ fn a_run_that_is_asked_to_stop_leaves_no_file() {
     }
     let id = run.id().to_string();
     assert!(std::process::Command::new("kill").args(["-TERM", &id]).status().unwrap().success());
-    assert_eq!(run.wait().unwrap().code(), Some(1));
+    assert_eq!(run.wait().unwrap().code(), Some(130));
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
 }
 

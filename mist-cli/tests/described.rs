@@ -36,7 +36,7 @@ fn a_program_with_its_files_runs_as_the_program_beside_its_files() {
     for words in [
         &["check", "a.json"][..],
         &["tolerance", "a.json", "--vary", "s"],
-        &["table", "a.json", "--grid", "thetai=0,30,thetas=0,30,phis=0"],
+        &["table", "a.json", "--grid", "thetai=0,30,thetas=0,30,phis=0", "--lambda=450:50:600"],
     ] {
         let (_, _, told) = mist(described.path(), words);
         assert!(!told.contains("not a program") && !told.contains("glass.nk"), "{words:?}: {told}");

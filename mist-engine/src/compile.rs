@@ -54,6 +54,7 @@ pub fn compile(
         given: Arc::new([]),
         initial: initial.into(),
         slips: Arc::new([]),
+        renames: false,
     };
     let found = job.find_slips();
     if found.iter().any(Diagnostic::is_error) {

@@ -18,6 +18,7 @@
 //! Conf. Ser. 411, 251 (2009).
 
 mod cells;
+mod compared;
 mod covariance;
 mod error;
 mod measured;
@@ -27,6 +28,7 @@ mod solve;
 
 use crate::{Control, function::ProgramFunction};
 
+pub use compared::{ComparedValue, compared};
 pub use error::FitError;
 pub use measured::{Datum, MeasuredError, MeasuredTable};
 pub use result::{Fit, Fitted, Residuals};

@@ -2,7 +2,11 @@
 
 use std::sync::Arc;
 
-use mist_format::{Diagnostic, Program, expr::Value, program::SourceText};
+use mist_format::{
+    Diagnostic, Program,
+    expr::Value,
+    program::{ColourKey, SourceText},
+};
 use scattering::{Class, Mode, ParameterError};
 
 use crate::{
@@ -48,6 +52,8 @@ pub struct Job {
     pub(crate) initial: Arc<[(u32, Value)]>,
     /// Warnings of slips in its text.
     pub(crate) slips: Arc<[Diagnostic]>,
+    /// True if files that the program names are called after the job, too.
+    pub(crate) renames: bool,
 }
 
 impl Job {
@@ -81,8 +87,30 @@ impl Job {
     }
 
     /// Name of the samples file, if the program wants one.
-    pub fn samples_name(&self) -> Option<&str> {
-        self.plan.program.files.samples().map(SourceText::as_str)
+    pub fn samples_name(&self) -> Option<String> {
+        self.plan.program.files.samples().map(|name| self.renamed(name.as_str(), "-samples"))
+    }
+
+    /// Name of the file that `key` of COLOR asks for, if it does.
+    pub fn colour_name(&self, key: ColourKey) -> Option<String> {
+        Some(self.renamed(self.colour()?.file(key)?, ""))
+    }
+
+    /// The job with all files called after it, those too that the program names; each keeps its
+    /// extension.
+    #[must_use]
+    pub fn with_files_named_after_it(self) -> Self {
+        Self { renames: true, ..self }
+    }
+
+    /// The name of a file that the program calls `name`; `kind` goes between the name of the job and
+    /// an extension that another file of a run may have, too.
+    fn renamed(&self, name: &str, kind: &str) -> String {
+        if !self.renames {
+            return name.to_owned();
+        }
+        let extension = name.rsplit_once('.').map_or("dat", |(_, extension)| extension);
+        format!("{}{kind}.{extension}", self.options.job)
     }
 
     /// True if steps must run one after the other, because the program feeds results back.
@@ -170,6 +198,7 @@ impl Job {
     }
 
     fn name_or(&self, given: Option<&SourceText>, extension: &str) -> String {
-        given.map_or_else(|| format!("{}.{extension}", self.options.job), |t| t.as_str().to_owned())
+        let own = || format!("{}.{extension}", self.options.job);
+        given.map_or_else(own, |name| self.renamed(name.as_str(), ""))
     }
 }

@@ -1,6 +1,7 @@
 //! The listing: what was run, with which parameters, and how long it took.
 
 use mist_format::number::{TEXT_DIGITS, push_list};
+use scattering::Mode;
 
 use crate::{
     Job,
@@ -17,12 +18,24 @@ pub(crate) fn head(job: &Job) -> String {
     let mut line = |key: &str, value: &str| text.push_str(&format!("{key}: {value}\n"));
     line("Integrating model", job.plan.class.name);
     line("Listing file", &job.listing_name());
-    line("Samples file", job.samples_name().unwrap_or("none"));
+    line("Samples file", job.samples_name().as_deref().unwrap_or("none"));
     line("Results file", &job.results_name());
     for header in job.plan.program.files.headers() {
         line("Header", header.as_str());
     }
+    if job.options.mode == Mode::Sound && !job.plan.loops.is_empty() {
+        for each in &job.plan.program.loops {
+            line("Loop", &each.to_string());
+        }
+        line("Parameters", "those of the first step");
+    }
     text
+}
+
+/// True if the parameters that the step number `step` sends are listed: in sound runs those of the
+/// first step, for the loops tell the others.
+pub(crate) fn lists(job: &Job, step: u64) -> bool {
+    step == 0 || job.options.mode == Mode::Compat
 }
 
 /// The last line.

@@ -1,9 +1,12 @@
 //! From the integrals of a step to a line of the results, and where lines go.
 
+mod form;
 mod not_finite;
+mod units;
 
 use std::{io, ops::Range, sync::Arc};
 
+use form::TableForm;
 pub(crate) use not_finite::NotFinite;
 
 use mist_format::{
@@ -105,30 +108,41 @@ impl Sink for MemorySink {
 
 /// The header lines and the line of names.
 pub(crate) fn head(job: &Job) -> String {
+    let form = TableForm::of(job);
     let mut text = String::new();
     for header in job.plan.program.files.headers() {
+        text.push_str(form.comment());
         text.push_str(header.as_str());
         text.push('\n');
     }
-    let [loops, _] = job.columns();
-    for title in loops {
-        text.push_str(title);
-        text.push('\t');
+    let titles = titles(job);
+    for title in titles.iter().map(|title| form.title(title, &job.plan)) {
+        text.push_str(&title);
+        text.push(form.character());
     }
-    for (at, output) in job.plan.outputs.iter().enumerate() {
-        text.push_str(&output.label);
-        text.push('\t');
-        for column in job.plan.errors.iter().flat_map(|errors| errors.after(at)) {
-            text.push_str(&column.title);
-            text.push('\t');
-        }
-    }
-    for column in job.plan.errors.iter().flat_map(ErrorColumns::last) {
-        text.push_str(&column.title);
-        text.push('\t');
-    }
-    text.push('\n');
+    form.end_line(&mut text);
     text
+}
+
+impl Job {
+    /// The unit of the column `title`, if the program tells it.
+    pub fn unit(&self, title: &str) -> Option<&'static str> {
+        units::unit(title, &self.plan)
+    }
+}
+
+/// The titles of all columns.
+fn titles(job: &Job) -> Vec<&str> {
+    let [loops, _] = job.columns();
+    let mut titles = loops;
+    for (at, output) in job.plan.outputs.iter().enumerate() {
+        titles.push(&output.label);
+        let errors = job.plan.errors.iter().flat_map(|errors| errors.after(at));
+        titles.extend(errors.map(|column| column.title.as_str()));
+    }
+    let errors = job.plan.errors.iter().flat_map(ErrorColumns::last);
+    titles.extend(errors.map(|column| column.title.as_str()));
+    titles
 }
 
 /// A line of the results.
@@ -177,6 +191,7 @@ pub(crate) struct Outputs<'j> {
     hides: bool,
     /// True if the numbers are formatted, and not only computed.
     formats: bool,
+    form: TableForm,
     pub(crate) not_finite: NotFinite,
 }
 
@@ -190,7 +205,8 @@ impl<'j> Outputs<'j> {
         let hides =
             results.any(|slot| job.plan.reads.contains(&slot) || predefined.contains(&slot));
         let (stack, not_finite) = (OperandStack::default(), NotFinite::new(job.plan.outputs.len()));
-        Self { job, scope, stack, values: None, hides, formats, not_finite }
+        let form = TableForm::of(job);
+        Self { job, scope, stack, values: None, hides, formats, form, not_finite }
     }
 
     /// Puts the line of `step`, whose integrals came out as `integrals`, into `line`.
@@ -219,7 +235,7 @@ impl<'j> Outputs<'j> {
             let start = text.len();
             coordinates.push(self.push_cell(text, cell)?);
             cells.push(start..text.len());
-            text.push('\t');
+            text.push(self.form.character());
         }
         for (at, output) in job.plan.outputs.iter().enumerate() {
             let value = self.number_at(&output.expr, &output.text)?;
@@ -234,15 +250,15 @@ impl<'j> Outputs<'j> {
             return Ok(());
         }
         for (at, value) in outputs.iter().enumerate() {
-            job.plan.format.push(text, *value);
+            self.form.push(text, &job.plan.format, *value);
             for column in job.plan.errors.iter().flat_map(|errors| errors.after(at)) {
-                job.plan.format.push(text, error(column));
+                self.form.push(text, &job.plan.format, error(column));
             }
         }
         for column in job.plan.errors.iter().flat_map(ErrorColumns::last) {
-            job.plan.format.push(text, error(column));
+            self.form.push(text, &job.plan.format, error(column));
         }
-        text.push('\n');
+        self.form.end_line(text);
         Ok(())
     }
 

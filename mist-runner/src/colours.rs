@@ -7,11 +7,11 @@ use std::{
 
 use mist_engine::colour::ColourTable;
 use rise_bridge::{
-    formats::ColourWriter,
+    formats::ColourFormat,
     write::{self, Style, WriteError},
 };
 
-use crate::files::AtomicFile;
+use crate::files::{AtomicFile, WrittenFile};
 
 /// Error of [`save`].
 #[derive(Debug, thiserror::Error)]
@@ -29,24 +29,24 @@ pub enum SaveError {
     },
 }
 
-/// Writes the files of `table` in one format and gives their names; `path` is the name of the
+/// Writes the files of `table` in the format of colour tables `format`; `path` is the name of the
 /// first.
 ///
 /// # Errors
 ///
-/// If the format has no text for the table, or a file cannot be written.
+/// If the format has no file for the table, or a file cannot be written.
 pub fn save(
-    writer: ColourWriter,
+    format: ColourFormat,
     table: &ColourTable,
     path: &Path,
     style: Style,
-) -> Result<Vec<PathBuf>, SaveError> {
-    let components = if writer.by_component { table.stokes } else { 1 };
+) -> Result<Vec<WrittenFile>, SaveError> {
+    let components = if format.writer.by_component { table.stokes } else { 1 };
     let save = |component| {
-        let text = (writer.text)(table, component, style)?;
+        let bytes = format.bytes(table, component, style)?;
         let path = PathBuf::from(write::component_name(&path.to_string_lossy(), component));
-        match AtomicFile::write(&path, &text) {
-            Ok(()) => Ok(path),
+        match AtomicFile::write_bytes(&path, &bytes) {
+            Ok(replaces) => Ok(WrittenFile { title: format.title, path, replaces }),
             Err(source) => Err(SaveError::Disk { path, source }),
         }
     };

@@ -18,6 +18,17 @@ const PATH_VARIABLE: &str = "SCATMECH";
 /// Environment variable with the folders in which RISE looks for the files of scenes.
 const MEDIA_VARIABLE: &str = "RISE_MEDIA_PATH";
 
+/// A file that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenFile {
+    /// Its content in a word or two, such as `results`.
+    pub title: &'static str,
+    /// Its name.
+    pub path: PathBuf,
+    /// True if it replaces an older file.
+    pub replaces: bool,
+}
+
 /// Looks for data files in the working folder, beside the program, and along `SCATMECH`.
 #[derive(Clone, Debug)]
 pub struct DiskFiles {

@@ -11,3 +11,4 @@ pub mod registry;
 pub mod results;
 pub mod run;
 pub mod shard;
+pub mod targets;

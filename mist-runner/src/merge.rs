@@ -10,8 +10,7 @@ use std::{
 use mist_engine::{Job, OutputStream};
 
 use crate::{
-    files::AtomicFile,
-    run::WrittenFile,
+    files::{AtomicFile, WrittenFile},
     shard::{JournalLine, JournalReader, Shard, ShardLabel, TextHead},
 };
 
@@ -227,8 +226,8 @@ impl MergedText {
     fn finish(mut self, seconds: f64) -> Result<WrittenFile, MergeError> {
         self.add(&Job::tail(self.stream, seconds))?;
         let path = self.file.path().to_owned();
-        self.file.finish().map_err(|source| unwritable(&path, source))?;
-        Ok(WrittenFile { title: self.title, path })
+        let replaces = self.file.finish().map_err(|source| unwritable(&path, source))?;
+        Ok(WrittenFile { title: self.title, path, replaces })
     }
 }
 

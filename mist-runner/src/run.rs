@@ -5,23 +5,18 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mist_engine::{Control, Failure, Job, Options, OutputStream, RunSummary, Sink};
-use rise_bridge::{formats, write::Style};
+use mist_engine::{Control, Failure, Job, Options, OutputStream, RunSummary, Sink, TableLine};
+use rise_bridge::write::Style;
 
 use crate::{
     colours::{self, SaveError},
-    files::AtomicFile,
+    files::{AtomicFile, WrittenFile},
     shard::{JournalError, JournalWriter, Shard, ShardLabel},
+    targets,
 };
 
-/// A file that was written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WrittenFile {
-    /// Its content in a word or two, such as `results`.
-    pub title: &'static str,
-    /// Its name.
-    pub path: PathBuf,
-}
+/// Takes the lines of the results.
+pub type LineWatch<'w> = &'w mut (dyn FnMut(&TableLine) + Send);
 
 /// Reason why a compiled job has no results on disk.
 #[derive(Debug, thiserror::Error)]
@@ -80,16 +75,26 @@ pub fn run_to_files(
     out: &Path,
     control: &Control,
 ) -> Result<(RunSummary, Vec<WrittenFile>), RunError> {
-    let mut sink = FileSink::create(job, out)?;
+    run_and_watch(job, out, control, &mut |_| ())
+}
+
+/// [`run_to_files`]; `watch` sees the lines of the results.
+///
+/// # Errors
+///
+/// The same.
+pub fn run_and_watch(
+    job: &Job,
+    out: &Path,
+    control: &Control,
+    watch: LineWatch<'_>,
+) -> Result<(RunSummary, Vec<WrittenFile>), RunError> {
+    let mut sink = FileSink::create(job, out, watch)?;
     let summary = job.run(&mut sink, control)?;
     let mut files = sink.finish()?;
-    if let (Some(section), Some(table)) = (job.colour(), &summary.colour) {
-        for (format, writer) in formats::of_colours() {
-            if let Some(name) = section.file(writer.key) {
-                let saved = colours::save(writer, table, &out.join(name), Style::default())?;
-                let title = format.title;
-                files.extend(saved.into_iter().map(|path| WrittenFile { title, path }));
-            }
+    if let Some(table) = &summary.colour {
+        for (format, name) in targets::colour_files(job) {
+            files.extend(colours::save(format, table, &out.join(name), Style::default())?);
         }
     }
     Ok((summary, files))
@@ -151,23 +156,25 @@ pub fn run_shard(
 
 /// Writes results, listing and samples of one job; the files have their names only when all are
 /// whole.
-struct FileSink {
+struct FileSink<'w> {
+    watch: LineWatch<'w>,
     results: AtomicFile,
     listing: AtomicFile,
     samples: Option<AtomicFile>,
 }
 
-impl FileSink {
+impl<'w> FileSink<'w> {
     /// Begins the files that `job` writes, below `out`.
-    fn create(job: &Job, out: &Path) -> Result<Self, RunError> {
+    fn create(job: &Job, out: &Path, watch: LineWatch<'w>) -> Result<Self, RunError> {
         let create = |name: &str| {
             let path = out.join(name);
             AtomicFile::create(&path).map_err(|source| RunError::Write { path, source })
         };
         Ok(Self {
+            watch,
             results: create(&job.results_name())?,
             listing: create(&job.listing_name())?,
-            samples: job.samples_name().map(create).transpose()?,
+            samples: job.samples_name().as_deref().map(create).transpose()?,
         })
     }
 
@@ -181,7 +188,7 @@ impl FileSink {
         let finish = |(title, file): (_, AtomicFile)| {
             let path = file.path().to_owned();
             match file.finish() {
-                Ok(()) => Ok(WrittenFile { title, path }),
+                Ok(replaces) => Ok(WrittenFile { title, path, replaces }),
                 Err(source) => Err(RunError::Write { path, source }),
             }
         };
@@ -189,7 +196,12 @@ impl FileSink {
     }
 }
 
-impl Sink for FileSink {
+impl Sink for FileSink<'_> {
+    fn row(&mut self, line: &TableLine) -> io::Result<()> {
+        (self.watch)(line);
+        Ok(())
+    }
+
     fn write(&mut self, stream: OutputStream, text: &str) -> io::Result<()> {
         let file = match stream {
             OutputStream::Results => &mut self.results,

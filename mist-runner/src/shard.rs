@@ -108,7 +108,7 @@ impl ShardLabel {
             steps,
             results: head(job.results_name(), OutputStream::Results),
             listing: head(job.listing_name(), OutputStream::Listing),
-            samples: job.samples_name().map(|name| head(name.into(), OutputStream::Samples)),
+            samples: job.samples_name().map(|name| head(name, OutputStream::Samples)),
         }
     }
 

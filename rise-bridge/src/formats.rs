@@ -1,5 +1,6 @@
 //! The file formats that mist writes: one table for the command line, HTTP, jobs, help and documents.
 
+mod colours;
 mod export;
 mod goniometer;
 mod klems;
@@ -12,6 +13,7 @@ use std::{io::Write, path::Path};
 use mist_engine::{Control, colour::ColourTable, material::PreparedMaterial};
 use mist_format::program::ColourKey;
 
+pub use colours::ColourFormat;
 pub use export::ExportRequest;
 
 use crate::{

@@ -359,7 +359,8 @@ fn emit(
     finished: &StepResult,
     text: &mut String,
 ) -> Result<(), Failure> {
-    if !step.listing.is_empty() && sink.wants(OutputStream::Listing) {
+    let is_listed = !step.listing.is_empty() && listing::lists(job, step.index);
+    if is_listed && sink.wants(OutputStream::Listing) {
         text.clear();
         step.listing.iter().for_each(|line| listing::push_parameter(text, job, line));
         sink.write(OutputStream::Listing, text)?;

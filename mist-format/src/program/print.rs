@@ -86,16 +86,23 @@ fn assignment(level: usize, name: &SourceText, value: &SourceText) -> PrintedLin
     PrintedLine { text, level, span: name.span().to(value.span()), role: LineRole::Entry }
 }
 
-fn loop_line(each: &Loop) -> PrintedLine {
-    let text = match each {
-        Loop::For(each) => {
-            let [variable, from, to, by] =
-                [&each.variable, &each.from, &each.to, &each.by].map(quote);
-            format!("FOR {variable} FROM {from} TO {to} BY {by}")
+impl fmt::Display for Loop {
+    /// The statement on one line.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::For(each) => {
+                let [variable, from, to, by] =
+                    [&each.variable, &each.from, &each.to, &each.by].map(quote);
+                write!(f, "FOR {variable} FROM {from} TO {to} BY {by}")
+            }
+            Self::List(list) => write!(f, "LIST {}", quote(&list.file)),
         }
-        Loop::List(list) => format!("LIST {}", quote(&list.file)),
-    };
-    PrintedLine { text, level: 1, span: each.span(), role: LineRole::Entry }
+    }
+}
+
+fn loop_line(each: &Loop) -> PrintedLine {
+    let (text, span) = (each.to_string(), each.span());
+    PrintedLine { text, level: 1, span, role: LineRole::Entry }
 }
 
 fn integral_lines(integral: &Integral) -> Vec<PrintedLine> {

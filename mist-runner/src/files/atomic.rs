@@ -44,12 +44,12 @@ impl AtomicFile {
         Ok(Self { path: path.to_owned(), file: BufWriter::with_capacity(BUFFER, file) })
     }
 
-    /// Writes the whole of `text` to the file `path`.
+    /// Writes the whole of `text` to the file `path`; true if it replaces an older file.
     ///
     /// # Errors
     ///
     /// If it cannot be written; an older file of this name is then left as it was.
-    pub fn write(path: &Path, text: &str) -> io::Result<()> {
+    pub fn write(path: &Path, text: &str) -> io::Result<bool> {
         Self::write_bytes(path, text.as_bytes())
     }
 
@@ -58,21 +58,22 @@ impl AtomicFile {
     /// # Errors
     ///
     /// The same.
-    pub fn write_bytes(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    pub fn write_bytes(path: &Path, bytes: &[u8]) -> io::Result<bool> {
         let mut file = Self::create(path)?;
         file.write_all(bytes)?;
         file.finish()
     }
 
-    /// Gives the file its name.
+    /// Gives the file its name; true if it replaces an older file.
     ///
     /// # Errors
     ///
     /// If the rest cannot be written or the name cannot be taken.
-    pub fn finish(self) -> io::Result<()> {
+    pub fn finish(self) -> io::Result<bool> {
         let file = self.file.into_inner().map_err(io::IntoInnerError::into_error)?;
+        let replaces = self.path.exists();
         file.persist(&self.path).map_err(|error| error.error)?;
-        Ok(())
+        Ok(replaces)
     }
 
     /// The name it will have.

@@ -13,6 +13,9 @@ pub enum WriteError {
         /// The number.
         value: f64,
     },
+    /// The picture cannot be made; the reason.
+    #[error("the picture cannot be made: {0}")]
+    Picture(String),
     /// A row does not have one value per wavelength.
     #[error("row {row} has no spectrum of {component}")]
     NoSpectrum {

@@ -1,5 +1,7 @@
-//! Pictures of colour tables and of spectra as SVG, without scripts and fonts.
+//! Pictures of colour tables and of spectra as SVG without scripts.
 
+mod axes;
+mod curves;
 mod display;
 mod graph;
 mod page;
@@ -7,5 +9,6 @@ mod pair;
 mod swatch;
 mod table;
 
+pub use curves::{Graph, Mark, Series};
 pub use pair::plot_comparisons;
-pub use table::plot;
+pub use table::{plot, plot_graphs};

@@ -24,10 +24,14 @@ impl DisplayColours {
         // A space without a valid white is shown unadapted.
         let adapt = adapt.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
         let brightest = brightest(table);
+        Self { space, adapt, scale: Self::white_scale(table), brightest }
+    }
+
+    /// The factor that makes white 1: a perfect diffuser has the BRDF 1/π, the factor 1, the
+    /// reflectance 1.
+    pub(super) fn white_scale(table: &ColourTable) -> f64 {
         let is_brdf = table.quantity.split(' ').next() == Some("brdf");
-        // A perfect diffuser has the BRDF 1/π, the factor 1, the reflectance 1.
-        let scale = brightest.map_or(if is_brdf { PI } else { 1.0 }, |luminance| 1.0 / luminance);
-        Self { space, adapt, scale, brightest }
+        brightest(table).map_or(if is_brdf { PI } else { 1.0 }, |luminance| 1.0 / luminance)
     }
 
     /// Colour of row `at` as `#rrggbb`.

@@ -1,178 +1,134 @@
-//! The spectra as curves over the wavelength, each in the colour of its row.
+//! The spectra as curves over the wavelength, and the lightness over the angle.
 
-use std::fmt::Write as _;
+use std::collections::BTreeMap;
 
 use mist_engine::colour::ColourTable;
 use mist_format::number::general;
+use spectra::{Xyz, lab};
 
 use super::{
+    curves::{Graph, Mark, Series},
     display::DisplayColours,
-    page::{MARGIN, WIDTH, evenly_spaced, text},
+    page::evenly_spaced,
 };
+use crate::column;
 
-pub(super) const HEIGHT: f64 = 320.0;
-/// Width of the numbers left of the axis.
-const LEFT: f64 = 64.0;
 /// Maximum number of curves.
 const CURVES: usize = 16;
-/// The ratio of maxima beyond which the scale is logarithmic.
-const LINEAR_SPREAD: f64 = 30.0;
-/// Maximum number of decades of a logarithmic scale.
-const DECADES: f64 = 4.0;
 
-/// The axes of a graph: from values to coordinates of the page.
-pub(super) struct GraphAxes {
-    wavelengths: [f64; 2],
-    values: [f64; 2],
-    logarithmic: bool,
-    top: f64,
-}
+/// The first row of a curve, and its points.
+type FlopCurve = (usize, Vec<(f64, f64)>);
 
-impl GraphAxes {
-    /// Linear axes whose upper edge is at `top`.
-    pub(super) fn linear(wavelengths: [f64; 2], values: [f64; 2], top: f64) -> Self {
-        Self { wavelengths, values, logarithmic: false, top }
+/// The spectra, each in the colour of its row; none if the table has no spectra.
+pub(super) fn spectra(table: &ColourTable, display: &DisplayColours) -> Option<Graph> {
+    let has_spectrum = |&row: &usize| table.rows[row].spectra[0].len() == table.wavelengths.len();
+    let shown = evenly_spaced(table.rows.len(), CURVES).into_iter().filter(has_spectrum);
+    let shown: Vec<usize> = shown.collect();
+    if table.wavelengths.len() < 2 || shown.is_empty() {
+        return None;
     }
-
-    pub(super) fn x(&self, wavelength: f64) -> f64 {
-        let [low, high] = self.wavelengths;
-        LEFT + MARGIN + (wavelength - low) / (high - low) * (WIDTH - LEFT - 2.0 * MARGIN)
-    }
-
-    pub(super) fn y(&self, value: f64) -> f64 {
-        let [low, high] = self.values;
-        let value = value.max(low);
-        let part = if self.logarithmic {
-            (value / low).ln() / (high / low).ln()
-        } else {
-            (value - low) / (high - low)
-        };
-        self.top + HEIGHT * (1.0 - part)
-    }
-
-    fn value_ticks(&self) -> Vec<f64> {
-        let [low, high] = self.values;
-        if self.logarithmic {
-            let decades = (high / low).log10().round() as i32;
-            return (0..=decades).map(|i| low * 10_f64.powi(i)).collect();
-        }
-        ticks(low, high, 5.0)
-    }
-}
-
-/// Draws the graph below `top` and returns its lower edge.
-pub(super) fn draw(
-    table: &ColourTable,
-    display: &DisplayColours,
-    top: f64,
-    svg: &mut String,
-) -> f64 {
-    let shown: Vec<usize> = evenly_spaced(table.rows.len(), CURVES)
-        .into_iter()
-        .filter(|&row| table.rows[row].spectra[0].len() == table.wavelengths.len())
-        .collect();
-    let axes = axes(table, &shown, top);
-    let of = match (shown.len(), table.rows.len()) {
-        (some, all) if some < all => format!("{}, {some} of {all} rows", table.quantity),
-        _ => table.quantity.clone(),
+    let names = varying(table, &shown);
+    let series = shown.iter().map(|&row| Series {
+        label: label(table, row, &names),
+        points: table.wavelengths.iter().copied().zip(table.rows[row].spectra[0].clone()).collect(),
+        mark: Mark::Curve,
+        colour: Some(display.hex(table, row)),
+    });
+    let title = match (shown.len(), table.rows.len()) {
+        (some, all) if some < all => format!("spectra of {some} of {all} rows"),
+        _ => "spectra".to_owned(),
     };
-    let below = shown.iter().flat_map(|&row| &table.rows[row].spectra[0]);
-    let cut = below.filter(|value| **value < axes.values[0]).count();
-    let cut = match cut {
-        0 => String::new(),
-        count => {
-            format!("; axis cut: {count} values below {} lie on it", general(axes.values[0], 3))
+    let names: Vec<String> = names.iter().map(|(_, name)| with_degrees(name)).collect();
+    let by = if names.is_empty() { String::new() } else { format!(", by {}", names.join(" / ")) };
+    Some(Graph {
+        title: title + &by,
+        across: "wavelength (nm)".into(),
+        up: quantity(table),
+        series: series.collect(),
+        is_linear: false,
+    })
+}
+
+/// The lightness over the angle of scattering, one curve for each of the other angles (the flop of a
+/// paint); none if a table has fewer than three angles of scattering.
+pub(super) fn flop(table: &ColourTable) -> Option<Graph> {
+    let mut curves: BTreeMap<Vec<u64>, FlopCurve> = BTreeMap::new();
+    let thetas = table.leading.len() + 1;
+    for (at, row) in table.rows.iter().enumerate() {
+        let mut place = column::patch_values(row);
+        // The solid angle of a cone with a given opening goes with the angle.
+        place.truncate(table.leading.len() + 3);
+        let angle = place.remove(thetas);
+        let key = place.into_iter().map(f64::to_bits).collect();
+        let points = &mut curves.entry(key).or_insert((at, Vec::new())).1;
+        points.push((angle, lightness(table, at)));
+    }
+    let mut curves: Vec<FlopCurve> =
+        curves.into_values().filter(|(_, points)| points.len() > 2).collect();
+    curves.sort_by_key(|(first, _)| *first);
+    if curves.len() > CURVES {
+        // The plane of incidence tells most.
+        let in_plane = |(first, _): &(usize, _)| table.rows[*first].phis == 0.0;
+        if curves.iter().any(in_plane) {
+            curves.retain(in_plane);
         }
-    };
-    draw_axes(&axes, &(of + &cut), svg);
-    for row in shown {
-        let values = &table.rows[row].spectra[0];
-        let points: String = table
-            .wavelengths
-            .iter()
-            .zip(values)
-            .map(|(w, v)| format!("{:.1},{:.1} ", axes.x(*w), axes.y(*v)))
-            .collect();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            svg,
-            "<polyline fill=\"none\" stroke=\"#999\" stroke-width=\"3.2\" points=\"{points}\"/>\n\
-             <polyline fill=\"none\" stroke=\"{}\" stroke-width=\"2.2\" points=\"{points}\"/>",
-            display.hex(table, row),
-        );
     }
-    top + HEIGHT + 48.0
-}
-
-fn axes(table: &ColourTable, shown: &[usize], top: f64) -> GraphAxes {
-    let maxima: Vec<f64> = shown
-        .iter()
-        .map(|&row| table.rows[row].spectra[0].iter().copied().fold(0.0, f64::max))
-        .collect();
-    let high = maxima.iter().copied().fold(0.0, f64::max);
-    let least = maxima.iter().copied().filter(|m| *m > 0.0).fold(f64::INFINITY, f64::min);
-    let logarithmic = high > LINEAR_SPREAD * least;
-    let values = match (logarithmic, high > 0.0) {
-        (_, false) => [0.0, 1.0],
-        (false, _) => [0.0, 1.05 * high],
-        (true, _) => {
-            let above = high.log10().ceil();
-            let below = (least / 3.0).log10().floor().max(above - DECADES);
-            [10_f64.powf(below), 10_f64.powf(above)]
-        }
-    };
-    let first = table.wavelengths.first().copied().unwrap_or(0.0);
-    let last = table.wavelengths.last().copied().unwrap_or(1.0);
-    GraphAxes { wavelengths: [first, last], values, logarithmic, top }
-}
-
-pub(super) fn draw_axes(axes: &GraphAxes, quantity: &str, svg: &mut String) {
-    let [low, high] = axes.wavelengths.map(|w| axes.x(w));
-    let bottom = axes.top + HEIGHT;
-    for value in axes.value_ticks() {
-        let y = axes.y(value);
-        line(svg, (low, y), (high, y), "#e4e4e4");
-        text(svg, (low - 6.0, y + 4.0), "text-anchor=\"end\"", &general(value, 3));
+    if curves.is_empty() {
+        return None;
     }
-    let [first, last] = axes.wavelengths;
-    for w in ticks(first, last, 8.0) {
-        let x = axes.x(w);
-        line(svg, (x, bottom), (x, bottom + 5.0), "#555");
-        text(svg, (x, bottom + 18.0), "text-anchor=\"middle\"", &general(w, 6));
+    let all = curves.len();
+    let kept: Vec<_> = evenly_spaced(all, CURVES).into_iter().map(|at| &curves[at]).collect();
+    let firsts: Vec<usize> = kept.iter().map(|(first, _)| *first).collect();
+    let names: Vec<(usize, String)> =
+        varying(table, &firsts).into_iter().filter(|(at, _)| *at != thetas).collect();
+    let series = kept.into_iter().map(|(first, points)| Series {
+        label: label(table, *first, &names),
+        points: points.clone(),
+        ..Series::default()
+    });
+    let shown: Vec<String> = names.iter().map(|(_, name)| with_degrees(name)).collect();
+    let by = if shown.is_empty() { String::new() } else { format!(", by {}", shown.join(" / ")) };
+    Some(Graph {
+        title: format!("flop: lightness over the angle of scattering{by}"),
+        across: "thetas (deg)".into(),
+        up: "L* (100: perfect diffuser)".into(),
+        series: series.collect(),
+        is_linear: true,
+    })
+}
+
+/// CIE lightness of row `at`; above 100 for colours that are brighter than a perfect diffuser.
+pub(super) fn lightness(table: &ColourTable, at: usize) -> f64 {
+    let scale = DisplayColours::white_scale(table);
+    let [x, y, z] = table.rows[at].xyz[0].map(|value| value * scale);
+    let white = Xyz::new(table.white[0], table.white[1], table.white[2]);
+    lab::from_xyz(Xyz::new(x, y, z), white).l
+}
+
+/// The quantity with its unit in parentheses.
+fn quantity(table: &ColourTable) -> String {
+    match table.quantity.split_once(' ') {
+        Some((name, "1")) => name.to_owned(),
+        Some((name, unit)) => format!("{name} ({unit})"),
+        None => table.quantity.clone(),
     }
-    line(svg, (low, bottom), (high, bottom), "#555");
-    text(svg, (high, bottom + 34.0), "text-anchor=\"end\"", "wavelength (nm)");
-    text(svg, (low, bottom + 34.0), "", &format!("curves: {quantity}"));
 }
 
-pub(super) fn line(svg: &mut String, (x1, y1): (f64, f64), (x2, y2): (f64, f64), colour: &str) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        svg,
-        "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"{colour}\"/>"
-    );
+/// Positions and names of the columns that differ between `rows`, without the solid angle.
+pub(super) fn varying(table: &ColourTable, rows: &[usize]) -> Vec<(usize, String)> {
+    let value = |row: usize, at: usize| column::patch_values(&table.rows[row])[at];
+    let differs = |at: usize| rows.iter().any(|&row| value(row, at) != value(rows[0], at));
+    let names = column::patch_names(table).into_iter().enumerate();
+    names.filter(|(at, name)| name != "omega" && differs(*at)).collect()
 }
 
-/// About `count` round numbers from `low` to `high`.
-fn ticks(low: f64, high: f64, count: f64) -> Vec<f64> {
-    let raw = (high - low) / count;
-    let decade = 10_f64.powf(raw.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * decade).into_iter().find(|s| *s >= raw);
-    let step = step.unwrap_or(raw);
-    let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
-    (first..=last).map(|i| i as f64 * step).collect()
+/// The values of row `row` in the columns `names`.
+pub(super) fn label(table: &ColourTable, row: usize, names: &[(usize, String)]) -> String {
+    let values = column::patch_values(&table.rows[row]);
+    names.iter().map(|(at, _)| general(values[*at], 4)).collect::<Vec<_>>().join(" / ")
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round_numbers_inside_the_range() {
-        assert_eq!(
-            ticks(360.0, 750.0, 8.0),
-            [400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0, 750.0]
-        );
-        assert_eq!(ticks(0.0, 1.05, 5.0), [0.0, 0.5, 1.0]);
-    }
+/// The name of a column, with its unit if it is an angle.
+pub(super) fn with_degrees(name: &str) -> String {
+    if matches!(name, "thetai" | "thetas" | "phis") { format!("{name} (deg)") } else { name.into() }
 }

@@ -20,6 +20,16 @@ pub(super) fn text(svg: &mut String, (x, y): (f64, f64), attributes: &str, conte
     let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" {attributes}>{content}</text>");
 }
 
+/// The picture with this content, whose lower edge is at `bottom`.
+pub(super) fn page(bottom: f64, body: &str) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" \
+         width=\"{WIDTH}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{body}</svg>\n",
+        height = bottom + MARGIN,
+    )
+}
+
 /// At most `most` indices of `0..count`, evenly spaced, including the first and the last.
 pub(super) fn evenly_spaced(count: usize, most: usize) -> Vec<usize> {
     if count <= most {

@@ -6,8 +6,8 @@ use mist_format::number::general;
 use spectra::compare::SpectrumComparison;
 
 use super::{
-    graph::{GraphAxes, HEIGHT, draw_axes, line},
-    page::{MARGIN, TITLE, WIDTH, text},
+    axes::{BLOCK, GraphAxes, line},
+    page::{MARGIN, TITLE, WIDTH, page, text},
 };
 
 /// Colour of the simulated curve.
@@ -21,12 +21,7 @@ pub fn plot_comparisons(comparisons: &[([&str; 2], &SpectrumComparison)]) -> Str
     for (names, comparison) in comparisons {
         y = draw(*names, comparison, y, &mut body);
     }
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" \
-         width=\"{WIDTH}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{body}</svg>\n",
-        height = y + MARGIN,
-    )
+    page(y, &body)
 }
 
 fn draw(
@@ -41,7 +36,9 @@ fn draw(
     let high = if high > low { high } else { low + 1.0 };
     let ends = [c.wavelengths[0], c.wavelengths[c.wavelengths.len() - 1]];
     let axes = GraphAxes::linear(ends, [low, high + 0.05 * (high - low)], top + TITLE);
-    draw_axes(&axes, "dots measured, line simulated, dashes simulated × factor", svg);
+    axes.draw(["wavelength (nm)", "value (1: perfect diffuser)"], svg);
+    let legend = "dots measured, line simulated, dashes simulated × factor";
+    text(svg, (WIDTH - MARGIN, top + 16.0), "text-anchor=\"end\" fill=\"#555\"", legend);
     text(svg, (MARGIN, top + 16.0), "font-size=\"16\"", measured);
     text(svg, (MARGIN, top + 34.0), &format!("fill=\"{SIMULATED}\""), simulated);
     let correlation = c.correlation.map_or_else(|| "none".to_owned(), |r| format!("{r:.4}"));
@@ -71,5 +68,5 @@ fn draw(
     if low < 0.0 {
         line(svg, (axes.x(ends[0]), axes.y(0.0)), (axes.x(ends[1]), axes.y(0.0)), "#999");
     }
-    top + TITLE + HEIGHT + 56.0
+    top + TITLE + BLOCK + 8.0
 }

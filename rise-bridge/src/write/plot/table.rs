@@ -1,35 +1,20 @@
 //! The picture of a colour table.
 
-use std::fmt::Write as _;
-
 use mist_engine::colour::ColourTable;
 
 use super::{
+    curves::Graph,
     display::DisplayColours,
     graph,
-    page::{MARGIN, TITLE, WIDTH, text},
+    page::{MARGIN, TITLE, page, text},
     swatch,
 };
 
-/// The picture of a table.
+/// The picture of a table: swatches of all rows, the lightness over the angle, the spectra.
 pub fn plot(table: &ColourTable) -> String {
     let display = DisplayColours::new(table);
     let mut body = String::new();
-    let mut y = TITLE;
-    if table.wavelengths.len() > 1 && table.rows.iter().any(|row| !row.spectra[0].is_empty()) {
-        y = graph::draw(table, &display, y, &mut body);
-    }
-    y = swatch::draw(table, &display, y, &mut body);
-    let mut svg = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        svg,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" \
-         width=\"{WIDTH}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",
-        height = y + MARGIN,
-    );
-    text(&mut svg, (MARGIN, 32.0), "font-size=\"20\"", &table.material);
+    text(&mut body, (MARGIN, 32.0), "font-size=\"20\"", &table.material);
     let subtitle = format!(
         "{}, {} observer, {}, {} adaptation; {}",
         table.illuminant,
@@ -38,6 +23,21 @@ pub fn plot(table: &ColourTable) -> String {
         table.adaptation,
         display.white()
     );
-    text(&mut svg, (MARGIN, 50.0), "fill=\"#555\"", &subtitle);
-    svg + &body + "</svg>\n"
+    text(&mut body, (MARGIN, 50.0), "fill=\"#555\"", &subtitle);
+    let mut y = swatch::draw(table, &display, TITLE, &mut body);
+    for graph in [graph::flop(table), graph::spectra(table, &display)].into_iter().flatten() {
+        y = graph.draw(y + MARGIN, &mut body);
+    }
+    page(y, &body)
+}
+
+/// Graphs, one below the other, under a title.
+pub fn plot_graphs(title: &str, graphs: &[Graph]) -> String {
+    let mut body = String::new();
+    text(&mut body, (MARGIN, 32.0), "font-size=\"20\"", title);
+    let mut y = 48.0;
+    for graph in graphs {
+        y = graph.draw(y, &mut body) + MARGIN;
+    }
+    page(y - MARGIN, &body)
 }
