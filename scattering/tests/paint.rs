@@ -239,3 +239,78 @@ fn stacks_that_it_cannot_describe_are_refused() {
         assert_eq!(refusal(params), *parameter, "{params:?}");
     }
 }
+
+#[test]
+fn a_pigmented_coating_with_doubling_is_a_paint_of_one_slab() {
+    let gaussian = "Gaussian_Slope_Distribution_Function";
+    let coating = [
+        ("lambda", "0.5"),
+        ("overcoat", "(1.5,0)"),
+        ("surface_sdf", "Unit_Slope_Distribution_Function"),
+        ("thickness", "20"),
+        ("particle.sphere", "(2.6,0)"),
+        ("particle_radius", "0.05"),
+        ("particle_density", "5"),
+        ("flake_density", "2e-4"),
+        ("substrate", "(1.2,7)"),
+        ("sdf", gaussian),
+        ("sdf.s", "0.3"),
+        ("backing.table", "0.4"),
+        ("body", "doubling"),
+    ];
+    let paint = [
+        ("lambda", "0.5"),
+        ("layer1.interface.material", "(1.5,0)"),
+        ("layer1.thickness", "20"),
+        ("layer1.particles", "SphericalScatterer_Phase_Function"),
+        ("layer1.particles.scatterer.sphere", "(2.6,0)"),
+        ("layer1.particles.scatterer.radius", "0.05"),
+        ("layer1.particles.volume_density", "5"),
+        ("layer1.flakes", "Plate_Flakes"),
+        ("layer1.flakes.density", "2e-4"),
+        ("layer1.flakes.substrate", "(1.2,7)"),
+        ("layer1.flakes.sdf", gaussian),
+        ("layer1.flakes.sdf.s", "0.3"),
+        ("model.lambda", "0.5"),
+        ("model.reflectance.table", "0.4"),
+    ];
+    let class = "Pigmented_Coating_BRDF_Model";
+    assert_eq!(difference(&build(class, &coating), &build(PAINT, &paint)), 0.0);
+    // Fine pigments polarize light across the plane of scattering; a scalar body cannot.
+    let fine = |body| {
+        let mut params = coating.to_vec();
+        params.retain(|(name, _)| !name.starts_with("flake") && *name != "body");
+        params.extend([("flake_density", "0"), ("backing.table", "0"), ("body", body)]);
+        if body == "scalar" {
+            params.push(("surface_shadow", "Unit_Shadow_Function"));
+        }
+        let at = Geometry { theta_i: 0.79, theta_s: 1.22, phi_s: 0.0, rotation: 0.0 };
+        let matrix = build(class, &params).mueller(&at, Basis::Psps);
+        matrix[(1, 0)] / matrix[(0, 0)]
+    };
+    let (scalar, polarized) = (fine("scalar"), fine("doubling"));
+    assert!(scalar < -0.1 && polarized > 0.05, "{scalar} {polarized}");
+}
+
+#[test]
+fn parameters_of_the_scalar_body_are_refused_beside_doubling() {
+    let refused = |name: &str, value: &str| {
+        let params = [("body", "doubling"), (name, value)];
+        let node = node("Pigmented_Coating_BRDF_Model", &params, Mode::Sound);
+        let error = models::build(&node).err().unwrap();
+        (error.parameter.clone(), error.to_string())
+    };
+    assert_eq!(refused("surface_shadow", "Unit_Shadow_Function").0, "surface_shadow");
+    for (name, value) in [("correlation", "0.5"), ("exchange", "1"), ("flake_spread", "0.1")] {
+        let (parameter, told) = refused(name, value);
+        assert_eq!(parameter, name);
+        assert!(told.contains("body = scalar"), "{told}");
+    }
+    assert_eq!(refused("sdf", "Exponential_Slope_Distribution_Function").0, "sdf");
+    let without = [("body", "doubling"), ("flake_density", "0"), ("overcoat", "(0.5,0)")];
+    let node = reference::node("Pigmented_Coating_BRDF_Model", &without, Mode::Sound);
+    assert_eq!(models::build(&node).err().unwrap().parameter, "overcoat");
+    let params = [("body", "vector")];
+    let node = reference::node("Pigmented_Coating_BRDF_Model", &params, Mode::Sound);
+    assert_eq!(models::build(&node).err().unwrap().parameter, "body");
+}

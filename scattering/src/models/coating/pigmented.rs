@@ -48,7 +48,12 @@
 //! - flakes of side √A and slope σ have room to tilt: N A (t + σ√A) ≤ 1, t the thickness of the films;
 //! - the light lost between flakes, 1 − ω_s − ω_d, is at most 0.05.
 //!
-//! Left out: reflections from flake to flake; the directions in which the body returns a beam, beyond
+//! `body` = `doubling` builds the same coating as an `Adding_Doubling_BRDF_Model`, whose light keeps
+//! its polarization, between flakes and particles too; the parameters of the scalar body
+//! (`correlation`, `printed…`, `exchange`, `albedo`, `flake_spread`) are refused then. Flakes and
+//! surface need Gaussian slopes, flakes with σ of at least 0.1.
+//!
+//! Left out by the scalar body: reflections from flake to flake; the directions in which the body returns a beam, beyond
 //! B; refraction of the light of flakes and body into other directions by a rough surface.
 //!
 //! The parameters `printed…` reproduce the equations of the paper as they are printed. None of these
@@ -67,6 +72,7 @@
 
 mod diffuse_light;
 mod parameters;
+mod polarized_body;
 
 use std::f64::consts::FRAC_1_PI;
 
@@ -106,7 +112,14 @@ pub const SPEC: Spec<dyn Brdf> = Spec {
         params: &[COMMON, FACET, OVERCOAT, parameters::OWN],
         laws: Laws::ALL,
     },
-    build: |node| Ok(Box::new(PigmentedCoating::read(node)?)),
+    build: |node| match node.text("body") {
+        "" | "scalar" => Ok(Box::new(PigmentedCoating::read(node)?)),
+        "doubling" => polarized_body::build(node),
+        other => {
+            let problem = format!("{other:?} is neither scalar nor doubling");
+            Err(ParameterError::new("body", problem))
+        }
+    },
 };
 
 /// Largest volume fraction of particles that scatter independently: denser ones are closer than

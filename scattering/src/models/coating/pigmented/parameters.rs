@@ -1,6 +1,9 @@
 //! Parameters of a pigmented coating besides those of its surface, flakes and binder.
 
-use crate::{reflectance, scatterer, shadow, slope, spec::Parameter};
+use crate::{
+    reflectance, scatterer, shadow, slope,
+    spec::{Parameter, ParameterKind},
+};
 
 /// Parameters of `Pigmented_Coating_BRDF_Model` itself.
 pub(super) const OWN: &[Parameter] = &[
@@ -60,4 +63,10 @@ pub(super) const OWN: &[Parameter] = &[
     Parameter::integer("exchange", 0, "Light between flakes and surface: 0 left out, 1 taken in"),
     Parameter::integer("printed_surface", 0, "1: the surface as in the paper's equations 4 to 6"),
     Parameter::integer("printed_flakes", 0, "1: the flakes as in the paper's equation 8"),
+    Parameter {
+        name: "body",
+        kind: ParameterKind::Text,
+        unit: "",
+        doc: "scalar (if empty): the body depolarizes; doubling: all light with its polarization",
+    },
 ];
