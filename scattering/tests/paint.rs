@@ -279,11 +279,10 @@ fn a_pigmented_coating_with_doubling_is_a_paint_of_one_slab() {
     // Fine pigments polarize light across the plane of scattering; a scalar body cannot.
     let fine = |body| {
         let mut params = coating.to_vec();
-        params.retain(|(name, _)| !name.starts_with("flake") && *name != "body");
+        params.retain(|(name, _)| !["flake_density", "surface_sdf", "body"].contains(name));
+        let slopes = [("surface_sdf.sigmax", "0.02"), ("surface_sdf.sigmay", "0.02")];
         params.extend([("flake_density", "0"), ("backing.table", "0"), ("body", body)]);
-        if body == "scalar" {
-            params.push(("surface_shadow", "Unit_Shadow_Function"));
-        }
+        params.extend(slopes);
         let at = Geometry { theta_i: 0.79, theta_s: 1.22, phi_s: 0.0, rotation: 0.0 };
         let matrix = build(class, &params).mueller(&at, Basis::Psps);
         matrix[(1, 0)] / matrix[(0, 0)]
