@@ -16,7 +16,6 @@ use super::{
     flags::{CompatFlag, IlluminantFlag, LambdaFlag, LampBasisName},
     input::InputText,
     material::{prepared, refused},
-    output::print,
     reporter::Reporter,
     threads::ThreadsFlag,
 };
@@ -141,12 +140,14 @@ pub(super) fn preview(args: &PreviewArgs, reporter: &Reporter) -> Result<(), Com
     AtomicFile::write_bytes(&args.output, &bytes)
         .map_err(|error| failed(format!("{}: {error}", args.output.display())))?;
     let [width, height] = [film.size[0] * (1 + usize::from(args.side_by_side)), film.size[1]];
-    print(&format!("{}: {width} × {height} pixels\n", args.output.display()))?;
+    reporter.say(&format!("{}: {width} × {height} pixels\n", args.output.display()))?;
     let [plain, seen] = [Polarization::All, filter].map(|filter| brightest(&film, filter));
-    print(&format!("brightest pixel: {plain:.4} without a filter, {seen:.4} in the picture\n"))?;
+    reporter.say(&format!(
+        "brightest pixel: {plain:.4} without a filter, {seen:.4} in the picture\n"
+    ))?;
     let shown = seen * args.exposure;
     if format == PictureFormat::Png && shown > 1.0 {
-        print(&format!(
+        reporter.say(&format!(
             "pixels brighter than white keep their hue; --exposure {:.3} shows their brightness\n",
             args.exposure / shown
         ))?;
