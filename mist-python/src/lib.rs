@@ -14,6 +14,7 @@ mod pool;
 mod program;
 mod registry;
 mod result;
+mod scatterer;
 mod shards;
 mod watch;
 
@@ -39,6 +40,8 @@ mod _native {
     use crate::registry::families;
     #[pymodule_export]
     use crate::result::NativeResult;
+    #[pymodule_export]
+    use crate::scatterer::NativeScatterer;
     #[pymodule_export]
     use crate::shards::merge_shards;
 }

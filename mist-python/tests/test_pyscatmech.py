@@ -272,3 +272,12 @@ def test_films_and_optical_constants(case, silicon):
         assert 0 < stack.Ts(**args) < 1 - stack.Rs(**args) + 1e-9
     else:
         check(getattr(stack, case["call"])(**args), {**case, "true": case["value"]})
+
+
+@cases("Free_Space_Scatterer")
+def test_particles(case):
+    from pySCATMECH.scatterer import Free_Space_Scatterer
+
+    args = decoded(case["args"])
+    found = getattr(made(Free_Space_Scatterer, case), case["call"])(**args)
+    check(found, {**case, "true": case["value"]})

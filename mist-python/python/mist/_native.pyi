@@ -12,6 +12,7 @@ __all__ = [
     "Material",
     "Program",
     "Result",
+    "Scatterer",
     "ciede2000",
     "colour_table",
     "colour_tolerance",
@@ -147,3 +148,18 @@ class Result:
     def coordinates(self) -> NDArray[np.float64]: ...
     def outputs(self) -> NDArray[np.float64]: ...
     def errors(self) -> NDArray[np.float64]: ...
+
+@final
+class Scatterer:
+    def __new__(
+        cls,
+        class_: str,
+        parameters: list[tuple[str, str]],
+        files: dict[str, str],
+        compat: bool,
+    ) -> Scatterer: ...
+    @property
+    def wave_number(self) -> float: ...
+    def jones(
+        self, k_in: list[float], k_out: list[float], in_plane: bool
+    ) -> NDArray[np.complex128]: ...

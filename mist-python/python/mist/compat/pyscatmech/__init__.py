@@ -21,7 +21,7 @@ import sys
 from .mode import mode, set_mode
 
 #: The modules of the package.
-MODULES = ("model", "mueller", "brdf", "local", "fresnel", "integrate")
+MODULES = ("model", "mueller", "brdf", "local", "fresnel", "scatterer", "integrate")
 
 __all__ = ["install", "mode", "set_mode", *MODULES]
 
