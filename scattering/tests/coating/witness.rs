@@ -5,7 +5,7 @@
 //! it follows one reflection by facets, takes the light of flakes and body for diffuse after that,
 //! and refracts by a flat surface. `MODEL_ERROR` states it.
 //!
-//! `cargo test --release -p scattering --test coating witness -- --nocapture` lists what it finds.
+//! `cargo test --release -p mist-scattering --test coating witness -- --nocapture` lists what it finds.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
