@@ -24,8 +24,7 @@ const INDEX: Embedded =
 const STYLE: Embedded =
     ("style.css", "text/css; charset=utf-8", include_str!("../../page/style.css"));
 /// The optical constants of the material that the page shows first.
-const GOLD: Embedded =
-    ("gold.nk", "text/plain; charset=utf-8", include_str!("../../page/gold.nk"));
+const GOLD: Embedded = ("gold.nk", "text/plain; charset=utf-8", include_str!("../../page/gold.nk"));
 const SCRIPTS: &[Embedded] = scripts!(
     "api.js" "ball.js" "chart.js" "dom.js" "editor.js" "files.js" "form.js" "graph.js"
     "hemisphere.js" "lobe.js" "main.js" "pixels.js" "program.js" "runner.js" "samples.js"

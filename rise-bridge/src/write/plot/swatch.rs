@@ -22,6 +22,8 @@ const SIDE: f64 = 72.0;
 const LABELLED: f64 = 40.0;
 /// Maximum number of squares in a line, and of lines.
 const MOST: usize = 48;
+/// Width of a value above a column.
+const LABEL: f64 = 26.0;
 /// Width of the values left of the lines.
 const NAMES: f64 = 120.0;
 /// Height of the strip of lightness below a line.
@@ -110,7 +112,8 @@ fn titles(
     let columns_are = if is_regular && !fast.is_empty() { columns_are.as_str() } else { "" };
     let legend = format!("lines: {}{columns_are}", joined(&slow));
     text(svg, (MARGIN, top - 22.0), "fill=\"#555\"", &legend);
-    for (i, &column) in columns.iter().enumerate().filter(|_| is_regular && side >= 26.0) {
+    let step = (LABEL * fast.len() as f64 / side).ceil().max(1.0) as usize;
+    for (i, &column) in columns.iter().enumerate().step_by(step).filter(|_| is_regular) {
         let at = (MARGIN + NAMES + side * (i as f64 + 0.5), top - 5.0);
         text(svg, at, "text-anchor=\"middle\" font-size=\"11\"", &values(table, column, &fast));
     }
@@ -141,7 +144,15 @@ fn line_name(table: &ColourTable, across: usize, row: usize) -> String {
 /// slowest column changes.
 fn across(table: &ColourTable) -> usize {
     if let RowOrder::Grid { axes, .. } = &table.layout {
-        return axes.last().map_or(1, |axis| axis.nodes.len()).max(1);
+        // As many of the fastest axes as fit into a line, but not all.
+        let mut across = 1;
+        for axis in axes.iter().skip(1).rev() {
+            if across > 1 && across * axis.nodes.len() > MOST {
+                break;
+            }
+            across *= axis.nodes.len().max(1);
+        }
+        return across;
     }
     let slowest = |at: usize| column::patch_values(&table.rows[at])[0];
     let count = table.rows.len();
