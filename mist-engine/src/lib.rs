@@ -24,7 +24,7 @@
 //! let job = compile(program, Arc::new(MemoryFiles::default()), &Options::default()).unwrap();
 //! let mut sink = MemorySink::default();
 //! job.run(&mut sink, &Control::default()).unwrap();
-//! assert_eq!(sink.results, "R\t\n         1\t\n");
+//! assert_eq!(sink.results, "R\n         1\n");
 //! ```
 //!
 //! The crate opens no file and no socket, and starts no thread pool.

@@ -205,7 +205,8 @@ fn a_reflectance_of_one_is_white_and_brighter_colours_state_their_exposure() {
         row.xyz[0] = [0.9505 * value, value, 1.0888 * value];
     }
     let svg = write::plot(&table);
-    assert_eq!(svg.matches("fill=\"#ffffff\"").count(), 1);
+    // In the line of swatches and in the strip of lightness.
+    assert_eq!(svg.matches("fill=\"#ffffff\"").count(), 2);
     // sRGB of 0.25 and 0.5.
     assert!(svg.contains("fill=\"#898989\"") && svg.contains("fill=\"#bcbcbc\""), "{svg}");
     assert!(svg.contains("white is a perfect diffuser") && !svg.contains("brighter"));

@@ -44,7 +44,9 @@ fn directions_of_models_without_defects_are_the_same_in_both_modes() {
             |mode| corpus::run(&folder, &case, mode).unwrap_or_else(|e| panic!("{name}: {e}"));
         let (sound, summary) = run(Mode::Sound);
         assert!(summary.met.is_empty(), "{name} meets {:?}", summary.met);
-        tables(&sound.results, &run(Mode::Compat).0.results, tolerance).unwrap();
+        // Rows of compat runs end in a tab.
+        let compat = run(Mode::Compat).0.results.replace("\t\n", "\n");
+        tables(&sound.results, &compat, tolerance).unwrap();
     }
 }
 
