@@ -103,7 +103,7 @@ class Axis:
             low = int(np.clip(np.searchsorted(self.nodes, x, side="right") - 1, 0, self.count - 2))
             a, b = float(self.nodes[low]), float(self.nodes[low + 1])
         else:
-            low = dr.binary_search(mi.UInt32(0), mi.UInt32(self.count),
+            low = dr.binary_search(0, self.count,
                                    lambda k: dr.gather(mi.Float, self.shared, k) <= x)
             low = dr.clip(mi.Int32(low) - 1, 0, self.count - 2)
             low = mi.UInt32(low)

@@ -8,6 +8,7 @@ import polarized
 import radiance
 import reflection
 import tables
+import vectorized
 from mist import Mist
 
 
@@ -21,7 +22,7 @@ def main(binary):
 
     with tempfile.TemporaryDirectory() as folder:
         mist = Mist(binary, folder)
-        for part in (polarized, reflection, plugin, tables, radiance):
+        for part in (polarized, reflection, plugin, vectorized, tables, radiance):
             part.check(mist, report)
     print(f"{counts['passed']} passed, {counts['failed']} failed")
     return 1 if counts["failed"] else 0
